@@ -200,7 +200,8 @@ bool StateSystems::holds_as_one(std::size_t c, const StateSystem& system, const 
         std::find(shared.rows.begin(), shared.rows.end(), model_.layout.tangent(c)) - shared.rows.begin();
     if (at == static_cast<std::ptrdiff_t>(shared.rows.size()) || !linear::participates_in(shared.null, at))
       continue;
-    if (!surfaces_move_alike(model_.layout, shared, shared.null * shared.null.row(at).transpose(), forcing, t))
+    if (!surfaces_move_alike(model_.layout, shared, shared.null * shared.null.row(at).transpose(), forcing,
+                             t))
       return false;
   }
   return true;

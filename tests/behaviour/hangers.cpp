@@ -144,8 +144,10 @@ TEST_CASE("what is told of hangers: cold, at the start, designed, and when they 
           "motion = { type = \"harmonic\", amplitude = 0.1, omega = 2.0 }\n";
   CHECK(build_model(parse_scene(moved, "test.toml", {})).hangers[0].at_start == doctest::Approx(14.0));
   // A cold load that follows is none below zero, as one that is given.
-  CHECK_THROWS_WITH_AS((void)model("stiffness = 400.0\nhanger = { hot = 20.0, travel = -0.06 }"),
-                       doctest::Contains("travel: the load in the undeformed state, hot + stiffness * travel, would be -4"), SceneError);
+  CHECK_THROWS_WITH_AS(
+      (void)model("stiffness = 400.0\nhanger = { hot = 20.0, travel = -0.06 }"),
+      doctest::Contains("travel: the load in the undeformed state, hot + stiffness * travel, would be -4"),
+      SceneError);
   CHECK_NOTHROW((void)model("stiffness = 400.0\nhanger = { hot = 20.0, travel = -0.05 }"));  // cold: 0
 }
 

@@ -125,7 +125,9 @@ TEST_CASE("where the rate is an unknown of its level the recursion takes it afte
   }
 }
 
-TEST_CASE("a series follows friction as far as its omitted terms are below rounding, also where it begins far from it") {
+TEST_CASE(
+    "a series follows friction as far as its omitted terms are below rounding, also where it begins far from "
+    "it") {
   // slip that slows down, x = x0 - a t, so E = exp(-x0/v + a t/v)
   constexpr double v = 0.7, a = 3.0;
   for (const double x0 : {0.0, 2.0, 9.0, 30.0, 700.0})  // E_0 from 1 to zero by underflow

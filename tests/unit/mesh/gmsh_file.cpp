@@ -202,8 +202,7 @@ TEST_CASE("bad meshes are refused with file and line") {
                 "m.msh:25: bodies.b.mesh: element 4 is inverted");
   check_refused(changed(old_file, "10 11 12 13", "10 11 13 12"),
                 "m.msh:25: bodies.b.mesh: element 4 is folded or flat");
-  check_refused(changed(old_file, "4 3 2 5", "4 10 2 5"),
-                "m.msh:25: bodies.b.mesh: element 4 has type 10");
+  check_refused(changed(old_file, "4 3 2 5", "4 10 2 5"), "m.msh:25: bodies.b.mesh: element 4 has type 10");
   check_refused(changed(old_file, "6\n15 2 1 0", "7\n99 5 5 0\n15 2 1 0"),
                 "m.msh:13: bodies.b.mesh: node 99 belongs to no element");
   check_refused(changed(old_file, "14 15 12\n", "14 77 12\n"),

@@ -47,8 +47,9 @@ TEST_CASE("a record of PEER, in g") {
   CHECK(table.times == std::vector<double>{0.0, 0.01, 0.02});
   CHECK(refusal(heading + "NPTS= 4, DT= .01\n1 2 3\n", {0, 0.0, true})
             .find("expected 4, the number given by NPTS") != std::string::npos);
-  CHECK(refusal(heading + "no numbers\n1 2 3\n", {0, 0.0, true}).find("in the fourth line of the PEER file") !=
-        std::string::npos);
+  CHECK(
+      refusal(heading + "no numbers\n1 2 3\n", {0, 0.0, true}).find("in the fourth line of the PEER file") !=
+      std::string::npos);
 }
 
 TEST_CASE("columns, values alone, periods and shifts") {

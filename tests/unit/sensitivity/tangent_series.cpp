@@ -75,12 +75,12 @@ TEST_CASE("ten parameters beside each other are ten parameters one by one") {
 
 TEST_CASE("the error of a tangent contains the friction that its series do not follow") {
   // A mass slows down from 300 Stribeck velocities: E = exp(-x/v) is zero to its series, and not near the end.
-  const Model model = build_model(parse_scene(
-      tests::matrix_scene("t_end = 20.0\nengine = \"ida\"\ninitial = { u = [0.0], v = [3.0] }",
-                          "mass = [[1.0]]\nstiffness = [[0.0]]",
-                          "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\n"
-                          "friction = { static = 0.5, kinetic = 0.2, stribeck_velocity = 0.01 }"),
-      "test.toml"));
+  const Model model = build_model(
+      parse_scene(tests::matrix_scene("t_end = 20.0\nengine = \"ida\"\ninitial = { u = [0.0], v = [3.0] }",
+                                      "mass = [[1.0]]\nstiffness = [[0.0]]",
+                                      "law = \"slider\"\ntangent = { d0 = 1.0 }\nnormal_force = 1.0\n"
+                                      "friction = { static = 0.5, kinetic = 0.2, stribeck_velocity = 0.01 }"),
+                  "test.toml"));
   const linear::SystemMatrices structure(model);
   motion::StateSystems systems(model, structure);
   const motion::Forcing forcing(model, 0.0, motion::Side::after);

@@ -150,7 +150,7 @@ TEST_CASE("what a companion would take counts the events that it has to decide")
   Result result;
   const CertifiedReport run = simulate_certified(build_model(read), read.run, result);
   REQUIRE_FALSE(run.certificate);
-  CHECK(run.reason.find("by exact would take") != std::string::npos);
+  CHECK(run.reason.find("a companion run (exact) would take") != std::string::npos);
   CHECK(run.reason.find("less than 0.1 s") == std::string::npos);  // its steps alone
 }
 

@@ -145,7 +145,8 @@ class Recorder {
   /// Called with the current state at the start, at the end of every engine step, and after every event and breakpoint. A
   /// change by `run` acts from then on, like a jump of a load. Return false to end the run.
   virtual bool steer(const Sample& /*now*/, Steering& /*run*/) { return true; }
-  /// Called often with the current time; return false to interrupt the run.
+  /// Called with the current time before and after each instant, after each row and at the end of each step; return false to
+  /// interrupt the run. It then ends at this time, and records no later row.
   virtual bool progress(double /*t*/) { return true; }
 };
 

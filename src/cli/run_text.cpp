@@ -84,17 +84,23 @@ std::string events_by_type(const Report& report) {
   return text.empty() ? "none" : text;
 }
 
-// If the exchanged energy is below this fraction of (force scale) * (length scale), it is rounding, and the relative
-// error of the balance has no meaning.
-constexpr double moved = 1e-9;
-
 void add_extreme(Table& table, const Model& model, const char* what, const Extreme& extreme, double scale,
-                 const std::string& unit, bool comparable = true) {
+                 const std::string& unit) {
   const double relative = scale > 0.0 ? extreme.value / scale : 0.0;
   const std::string contact = name_of(model, extreme.contact);
   const std::string where = fmt::format("t = {:.6g}{}", extreme.t, contact.empty() ? "" : ", " + contact);
-  table.row({what, comparable ? fmt::format("{:.2g}", relative) : "-",
-             fmt::format("{:.2g} {}", extreme.value, unit), extreme.value == 0.0 ? "" : where});
+  table.row({what, fmt::format("{:.2g}", relative), fmt::format("{:.2g} {}", extreme.value, unit),
+             extreme.value == 0.0 ? "" : where});
+}
+
+/// Row for contacts that rest at their friction limit; none if there are no such contacts.
+void add_contacts_at_limit(Table& table, const Model& model, const Audit& a) {
+  if (a.contacts_at_limit == 0) return;
+  const Extreme& off = a.at_limit;
+  table.row({fmt::format("at rest at |T| = T_U: {}", base::count_text(a.contacts_at_limit, "contact")),
+             fmt::format("{:.2g}", a.force_scale > 0.0 ? off.value / a.force_scale : 0.0),
+             fmt::format("{:.2g} {}", off.value, model.units.force),
+             fmt::format("t = {:.6g}, {}", off.t, name_of(model, off.contact))});
 }
 
 std::string method_of(const Method& method) {
@@ -240,7 +246,7 @@ std::string audit_table(const Model& model, const Audit& a, TableStyle style) {
   Table table({"audit: greatest violation", "relative", "value", "where"}, {false, true, true, false});
   add_extreme(table, model, "gap g < 0", a.gap, a.length_scale, length);
   add_extreme(table, model, "tension N > 0", a.tension, a.force_scale, force);
-  add_extreme(table, model, "complementarity |g N|", a.product, a.energy_scale, energy);
+  add_extreme(table, model, "complementarity |g N|", a.product, a.energy_reference(), energy);
   if (std::any_of(model.contacts.begin(), model.contacts.end(),
                   [](const Contact& c) { return c.takes_impulses(); }))
     add_extreme(table, model, "penetration", a.penetration, a.length_scale, length);
@@ -249,8 +255,8 @@ std::string audit_table(const Model& model, const Audit& a, TableStyle style) {
               energy + "/" + model.units.time);
   add_extreme(table, model, "equilibrium", a.equilibrium, a.force_scale, force);
   if (a.reactions) add_extreme(table, model, "sum of reactions", *a.reactions, a.force_scale, force);
-  add_extreme(table, model, "energy balance", a.energy, a.energy_scale, energy,
-              a.energy_scale > moved * a.force_scale * a.length_scale);
+  add_extreme(table, model, "energy balance", a.energy, a.energy_reference(), energy);
+  add_contacts_at_limit(table, model, a);
   return table.str(style);
 }
 

@@ -185,6 +185,7 @@ std::string audit_table(const base::Json& summary, const Units& units) {
   }
   if (rows.empty()) return "";
   return "<p>Greatest errors of the contact conditions, the equations and the energy balance.</p>\n<div "
+                                    {"at_limit", "at rest at |T| = T_U", "force"},
          "class=wide><table><thead><tr><th>condition</th><th>relative</th><th>value</th><th>at "
          "t</th><th>contact</th></tr></thead><tbody>\n" +
          rows + "</tbody></table></div>\n";

@@ -30,6 +30,11 @@ void merge_results(const assembly::PartModel& part, const Audit& own, Audit& all
       all.*extreme = own.*extreme;
       (all.*extreme).contact = number_of(part, (own.*extreme).contact);
     }
+  if (own.contacts_at_limit > 0 && (all.contacts_at_limit == 0 || own.at_limit.value > all.at_limit.value)) {
+    all.at_limit = own.at_limit;
+    all.at_limit.contact = number_of(part, own.at_limit.contact);
+  }
+  all.contacts_at_limit += own.contacts_at_limit;
   all.energy.value += own.energy.value;
   all.length_scale = own.length_scale;
   all.force_scale = own.force_scale;

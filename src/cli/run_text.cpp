@@ -299,6 +299,22 @@ std::string run_summary(const RunSpec& run, const Model& model, const Report& re
   return text;
 }
 
+std::string reduction_text(const Model& model, const CertifiedReport& run) {
+  if (!model.reduction) return "";
+  const Reduction& r = *model.reduction;
+  std::string text = fmt::format("reduction: {} modes, up to {:.4g} rad/{}, {} left out", r.modes, r.cutoff,
+                                 model.units.time, r.truncated_modes);
+  if (!r.trials.empty())
+    text += fmt::format(", error {:.2g} of the greatest displacement ({} trials)", r.trials.back().error,
+                        r.trials.size());
+  if (!run.reduction || model.contacts.empty() || r.truncated_modes == 0) return text + "\n";
+  return text +
+         fmt::format(
+             "; they would change displacements at contacts by about {:.2g} {}\n  in one loading, and slips "
+             "add up: a run with a higher cutoff shows what they change\n",
+             run.reduction->displacement, model.units.length);
+}
+
 std::string certification_text(const Model& model, const CertifiedReport& run) {
   if (!run.certificate) return run.reason.empty() ? "" : "not certified: " + run.reason + "\n";
   const Certificate& c = *run.certificate;
@@ -307,10 +323,12 @@ std::string certification_text(const Model& model, const CertifiedReport& run) {
     if (c.certain(i)) greatest = std::max(greatest, c.t_errors[i]);
   const std::string beside =
       fmt::format("companion: {}, {:.2f} s, waited {:.2f} s", c.companion, c.wall_time, c.wait);
+  const bool reduced = model.reduction && model.reduction->truncated_modes > 0;
+  const std::string what = reduced ? "reduced model certified" : "certified";
   const std::string to_end =
       run.report.outcome.kind == Outcome::Kind::done
-          ? "certified to the end"
-          : fmt::format("certified to t = {:.9g} {}, where the run ended", c.until, model.units.time);
+          ? what + " to the end"
+          : fmt::format("{} to t = {:.9g} {}, where the run ended", what, c.until, model.units.time);
   if (c.complete && c.t_errors.empty()) return fmt::format("{}: no event ({})\n", to_end, beside);
   // Without certified events there are no error bounds of times.
   const std::string times =
@@ -318,7 +336,7 @@ std::string certification_text(const Model& model, const CertifiedReport& run) {
   std::string text =
       c.complete
           ? fmt::format("{}: all {} events{} ({})\n", to_end, c.t_errors.size(), times, beside)
-          : fmt::format("certified until t = {:.9g} {}: {} of {} events{} ({}); reason: {}\n", c.until,
+          : fmt::format("{} until t = {:.9g} {}: {} of {} events{} ({}); reason: {}\n", what, c.until,
                         model.units.time, c.certain_events(), c.t_errors.size(), times, beside, c.reason);
   if (c.unordered > 0)
     text += fmt::format("the order of {} of neighbouring events of different contacts is not certified\n",

@@ -316,7 +316,7 @@ std::string summary_json(const Scene& scene, const Model& model, const Certified
   json["certified"] = certificate_json(run);
   if (!run.certificate && !run.reason.empty()) json["not_certified"] = run.reason;
   json["counters"] = counter_json(report.counters);
-  if (model.reduction) json["reduction"] = reduction_json(*model.reduction, &report);
+  if (model.reduction) json["reduction"] = reduction_json(*model.reduction, &run);
   json["witness"] = law_check_json(model, report.law_checks);
   json["audit"] = audit_json(model, report.audit);
   json["energy"] = {{"initial", energy_json(report.audit.initial)},

@@ -275,6 +275,13 @@ bool has_pendulums(const Scene& scene) {
                      [](const ContactSpec& c) { return c.pendulum_surface.has_value(); });
 }
 
+/// Removes from the damping beta K what it does not contain: the stiffness of the prestress and of pendulums.
+void exclude_undamped_stiffness(const Scene& scene, const DofMap& map, const Model& model,
+                                Assembly& assembly) {
+  if (model.geometric) exclude_prestress_damping(scene, map, assembly);
+  if (has_pendulums(scene)) exclude_restoring_damping(scene, map, model, assembly);
+}
+
 /// Scales of the saved run that the scene continues; if there is none, scales computed from the model.
 Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>& closed, const Model& model) {
   const Scales own = find_scales(model, map, closed, scene.run.t_end);
@@ -324,9 +331,7 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
   if (model.geometric && extent == Extent::all) set_load_factors(scene, map, closed, model);
   model.omega1 = lowest_frequency(model.mass, model.stiffness, constrain_contacts(model.contacts, closed));
   const SparseMatrix dashpots = assembly.dampers;
-  if (model.geometric && scene.damping.beta != 0.0) exclude_prestress_damping(scene, map, assembly);
-  if (scene.damping.beta != 0.0 && has_pendulums(scene))
-    exclude_restoring_damping(scene, map, model, assembly);
+  if (scene.damping.beta != 0.0) exclude_undamped_stiffness(scene, map, model, assembly);
   set_damping(scene, assembly.dampers, model);
   assembly::add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
   model.omega_max = modes::highest_frequency(model);

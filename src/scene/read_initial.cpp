@@ -134,7 +134,9 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
   const std::filesystem::path directory = directory_of(scene) / name, path = directory / "states.csv";
   if (name.empty()) table.wrong("run", "the directory of a run");
   if (std::error_code ignored; !std::filesystem::is_directory(directory, ignored))
-    refuse_file(table, "run", directory, "not a directory; give the directory of a run");
+    refuse_file(table, "run", directory,
+                std::filesystem::exists(directory, ignored) ? "not a directory; give the directory of a run"
+                                                            : "there is no such directory");
   base::Json model;
   try {
     base::check_run_files(directory,

@@ -71,6 +71,7 @@ void ExactEngine::start(const engine::Segment& segment) {
   const bool same_motion = can_continue_series(decision, segment.same_forcing);
   const contact::ContactStates before =
       local_series_ ? std::exchange(states_, decision.states) : contact::ContactStates();
+  if (decision.jet.t != t_) rest_ = 0.0;
   t_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   growth_now_ =
@@ -462,7 +463,8 @@ void ExactEngine::begin_series(double scale) {
       (segment_.end - valid_end_time_ < 0.01 * scale * x && taylor_.friction_reach(degree_, all) == all))
     valid_end_time_ = segment_.end;
   begin_x_ = 0.0;
-  reach_ = (valid_end_time_ - t_) / scale;
+  origin_rest_ = rest_;
+  reach_ = (valid_end_time_ - t_ - rest_) / scale;
   motion_.set_complete(degree_);
   if (local_series_) motion_.bound_rates(reach_);
   local_remainders_.assign(local_remainders_.size(), {series_remainder(reach_), reach_});
@@ -484,11 +486,12 @@ engine::Step ExactEngine::advance() {
   step_.begin = t_;
   const double x = first.at;
   double end = valid_end_time_;
+  const double passed = motion_.whole.scale * x + origin_rest_;
   if (first.slot) {
     step_.kind = engine::Step::Kind::event;
     step_.triggered = {{model_.layout.contact_of_guard(*first.slot),
                         segment_.decision->guards[*first.slot].kind, !active_guards_.armed(*first.slot)}};
-    end = motion_.whole.t + motion_.whole.scale * x;
+    end = motion_.whole.t + passed;
   } else {
     update_unarmed(x);
   }
@@ -497,6 +500,7 @@ engine::Step ExactEngine::advance() {
   turns_.find(motion_.contacts(), motion_.whole, begin_x_, x);
   end_x_ = x;
   motion_.evaluate_at(x, end_);  // more accurate than at `end`, which is rounded
+  rest_ = rounding::rest_of_sum(motion_.whole.t, passed, end);
   t_ = end;
   // A closed rigid contact satisfies only g'' = 0, whose rounding errors are integrated twice: restore g = 0 and g' = 0.
   if (!local_series_)

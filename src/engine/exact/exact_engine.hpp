@@ -129,6 +129,8 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   std::optional<std::mt19937_64> random_;  // generator of random step lengths
   motion::Point end_;                      // end of the last step
   double t_ = 0.0, growth_now_ = 0.0;
+  double rest_ = 0.0,
+         origin_rest_ = 0.0;     // exact time minus t_ at the end of the last step, and at x = 0 in motion_
   double max_next_step_ = 0.0;   // limit of the length of the next step
   double segment_begin_ = 0.0;   // beginning of the segment
   double event_interval_ = 0.0;  // mean time between recent events; 0: none

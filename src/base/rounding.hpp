@@ -25,11 +25,4 @@ inline constexpr double many_operations = 64.0 * eps;
 inline constexpr double time_resolution = 100.0 * eps;
 inline constexpr double elimination = 1e3 * eps;
 
-/// The exact a + b minus `sum`, which is fl(a + b) or differs from it by a few roundings (Knuth's two-sum).
-/// A time that is added up from steps without this part drifts: for steps of equal length each rounding has the same sign.
-[[nodiscard]] constexpr double rest_of_sum(double a, double b, double sum) {
-  const double of_b = sum - a;
-  return (a - (sum - of_b)) + (b - of_b);
-}
-
 }  // namespace signorini::rounding

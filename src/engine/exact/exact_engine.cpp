@@ -500,7 +500,7 @@ engine::Step ExactEngine::advance() {
   turns_.find(motion_.contacts(), motion_.whole, begin_x_, x);
   end_x_ = x;
   motion_.evaluate_at(x, end_);  // more accurate than at `end`, which is rounded
-  rest_ = rounding::rest_of_sum(motion_.whole.t, passed, end);
+  rest_ = rest_of_sum(motion_.whole.t, passed, end);
   t_ = end;
   // A closed rigid contact satisfies only g'' = 0, whose rounding errors are integrated twice: restore g = 0 and g' = 0.
   if (!local_series_)

@@ -32,6 +32,13 @@ namespace signorini::exact {
 /// Largest number of levels of a series (motion/taylor.hpp).
 inline constexpr int max_levels = 30;
 
+/// The exact a + b minus `sum`, which is fl(a + b) or differs from it by a few roundings (Knuth's two-sum).
+/// A time that is added up from steps without this part drifts: for steps of equal length each rounding has the same sign.
+[[nodiscard]] constexpr double rest_of_sum(double a, double b, double sum) {
+  const double of_b = sum - a;
+  return (a - (sum - of_b)) + (b - of_b);
+}
+
 /// Options of ExactEngine.
 struct SeriesOptions {
   bool local_updates = false;   ///< allow local updates; requires that no listener reads the series

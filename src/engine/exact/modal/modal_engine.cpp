@@ -138,7 +138,7 @@ double ModalEngine::refine_crossing(std::size_t slot, double begin_rest) {
   Part& part = parts_.back();
   for (int i = 0;; ++i) {
     t_ = part.begin + (part.length + begin_rest);
-    rest_ = rounding::rest_of_sum(part.begin, part.length + begin_rest, t_);
+    rest_ = exact::rest_of_sum(part.begin, part.length + begin_rest, t_);
     Motion reached = motion(now_, true);
     motion::Point point;
     fill_rows(contact_shape_rows_, now_, reached, point);
@@ -189,7 +189,7 @@ engine::Step ModalEngine::advance() {
       flow_->find_turning_points(now_, t_, passage.length, parts_.size() == 1, turning_points_,
                                  last_turning_times_);
     now_ = std::move(next);
-    rest_ = last ? 0.0 : rounding::rest_of_sum(t_, length + begin_rest, end);
+    rest_ = last ? 0.0 : exact::rest_of_sum(t_, length + begin_rest, end);
     t_ = end;
     if (passage.triggered) {
       step.resolution = refine_crossing(*passage.triggered, begin_rest);

@@ -8,6 +8,7 @@
 #include "contact/friction.hpp"
 #include "linear/sparse_cholesky.hpp"
 #include "model/assembly/dofs.hpp"
+#include "model/assembly/motion_names.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/model_warnings.hpp"
 #include "model/modes/constrained_structure.hpp"

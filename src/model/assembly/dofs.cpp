@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "model/assembly/moving_obstacles.hpp"
 #include "model/assembly/ties.hpp"
 #include "scene/components.hpp"
 
@@ -192,6 +193,7 @@ DofMap number_nodes(const Scene& scene, element::Mesh mesh) {
     }
   add_own(map);
   tie(bodies, map);
+  follow_obstacles(scene, map);
   tie_seams(scene, map);
   add_columns(map);
   return map;
@@ -232,6 +234,16 @@ double DofMap::value(const Vector& x, int n) const {
   for (const TiedTerm& term : terms(n))
     if (term.number >= 0) sum += term.factor * x[term.number];
   return sum;
+}
+
+int DofMap::own_number(int node, std::size_t c) const {
+  const int n = number[static_cast<std::size_t>(node)][c];
+  if (!is_tied(n)) return n;
+  for (const TiedTerm& term : tied[static_cast<std::size_t>(n - size())].terms)
+    if (term.number >= 0 &&
+        locations[static_cast<std::size_t>(term.number)] == std::pair(node, static_cast<int>(c)))
+      return term.number;
+  return absent;
 }
 
 std::array<int, 3> DofMap::numbers_at(int node) const {
@@ -285,14 +297,8 @@ Combination combination(const DofMap& map, const Direction& direction, const std
     const int node = element::find_node(map.mesh, name, direction.place, key);
     for (std::size_t c = 0; c < 2; ++c) {
       if (vector[c] == 0.0 || weight == 0.0) continue;
-      const int d = map.number[static_cast<std::size_t>(node)][c];
+      const int d = map.numbers_at(node)[c];
       form.add(d, weight * (unit ? vector[c] / length : vector[c]));
-      if (unit && (map.moving[static_cast<std::size_t>(node)][c] >= 0 || form.follows_support()))
-        throw SceneError(
-            direction.place, key,
-            fmt::format("a support moves node '{}' in {}, but the node of a contact must be free or "
-                        "fixed: use another node, connected to the moving node by a spring",
-                        name, c == 0 ? "x" : "y"));
       if (d == DofMap::absent && !skip_absent)
         throw SceneError(
             direction.place, key,
@@ -303,6 +309,14 @@ Combination combination(const DofMap& map, const Direction& direction, const std
   };
   add(direction.node, 1.0);
   for (const auto& [node, weight] : direction.against) add(node, -weight);
+  // Motions of supports cancel in forms of contacts (moving_obstacles.hpp); the small rest of rounding is dropped.
+  if (unit && form.follows_support())
+    throw SceneError(
+        direction.place, key,
+        fmt::format("the motion of a support changes the gap or the slip of this contact at node '{}', "
+                    "which must depend on degrees of freedom only; if all supports move together, give "
+                    "[base_motion] instead of their motion",
+                    direction.node));
   return form.combination();
 }
 

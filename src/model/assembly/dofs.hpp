@@ -78,6 +78,9 @@ struct DofMap {
   [[nodiscard]] element::AxialForces axial_forces_in(std::size_t element) const {
     return axial_forces.empty() ? element::AxialForces{} : axial_forces[element];
   }
+  /// The degree of freedom of a component of a node: its number, or, of a node with a motion relative to an obstacle
+  /// (moving_obstacles.hpp), the number of this relative motion. Otherwise `fixed` or `absent`, also for other tied motions.
+  [[nodiscard]] int own_number(int node, std::size_t c) const;
   /// Numbers of the element's unknowns, coded as in numbers_at().
   [[nodiscard]] std::vector<int> element_numbers(std::size_t element) const;
 };

@@ -89,6 +89,7 @@ void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, Dof
     if (!scene.initial.saved) return;
     take_saved_contact_states(*scene.initial.saved, model);
     model.saved_contacts = final_contacts(*scene.initial.saved, model);
+    model.saved_time = scene.initial.saved->t;
     return;
   }
   bool loaded = false;

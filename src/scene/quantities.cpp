@@ -56,6 +56,7 @@ void visit_initial(InitialSpec& initial, const Visit& visit) {
   for (double& v : initial.v) visit(v, velocity);
   for (InitialSpec::Component& c : initial.components) visit(c.value, motion_named(c.component).unit());
   if (!initial.saved) return;
+  visit(initial.saved->t, time);
   for (auto& [name, value] : initial.saved->motions)
     visit(value, name == saved_alpha ? rate : motion_named(name).unit());
   for (auto& [name, shear] : initial.saved->shears) visit(shear, force);

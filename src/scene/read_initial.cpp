@@ -35,7 +35,7 @@ void read_nodes_state(Table& table, InitialSpec& initial, const NameScope& space
   for (const Entry& entry : entries_of(table.node())) {
     const auto group = space.groups.find(entry.name);
     if (group == space.groups.end())
-      check_known(entry.name, space.names, "node", entry.place(), table.path(entry.name));
+      check_node(entry.name, space, entry.place(), table.path(entry.name), true);
     const toml::node* node = table.raw(entry.name);
     if (!node->is_table()) table.wrong(entry.name, "a table { ux = ..., vx = ... }");
     Table state(node->as_table(), "run.initial.*", table.path(entry.name), place_of(*node));

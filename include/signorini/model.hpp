@@ -94,7 +94,7 @@ struct StageEnd {
 /// Result of the static start (initial = "static" or "frictional").
 struct StaticStart {
   std::vector<double> reactions;  ///< -N of each contact, >= 0
-  /// Motions without stiffness, and the contact that restrains each: "horizontal motion held at contact 'first'".
+  /// Motions without stiffness, and the contacts that restrain each: "horizontal motion held at contact 'first'".
   std::vector<std::string> free_motions;
   bool frictional = false;
   std::vector<StageEvent> events;  ///< only frictional

@@ -230,6 +230,12 @@ void ContactStateSolver::restart_path_at_stop(const FailedGuard& f, SolverState&
 
 namespace {
 
+bool lands_on_dashpot(const Model& model, const PathTouch& touch) {
+  return std::any_of(touch.landings.begin(), touch.landings.end(), [&](const PathTouch::Landing& landing) {
+    return model.contacts[landing.contact].normal_damping > 0.0;
+  });
+}
+
 std::vector<Block> selected(const std::vector<Block>& blocks, const std::vector<bool>& mask) {
   std::vector<Block> result;
   for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -248,9 +254,9 @@ std::vector<Block> ContactStateSolver::decide_separate_contacts(SolverState& sol
   const MasslessPath way{solver_state.jump_origin(), solver_state.decision.u};
   solver_state.touched = first_touch(model_, way, solver_state.failed);
   const auto touched = [&touch = solver_state.touched](std::size_t c) {
-    return touch && touch->contact == c;
+    return touch ? touch->of(c) : nullptr;
   };
-  if (solver_state.touched && model_.contacts[solver_state.touched->contact].normal_damping > 0.0)
+  if (solver_state.touched && lands_on_dashpot(model_, *solver_state.touched))
     solver_state.instant.u = way.from + solver_state.touched->fraction * (way.to - way.from);
   // Failures are deferred only until states repeat; afterwards all contacts are decided.
   if (solver_state.decision.rounds >= 2 && !solver_state.noise_increased) {
@@ -262,7 +268,7 @@ std::vector<Block> ContactStateSolver::decide_separate_contacts(SolverState& sol
     const std::size_t c = f.contact;
     const Contact& contact = model_.contacts[c];
     // A contact that closes during an instantaneous motion has no crossing: another contact caused the event.
-    if (!solver_state.decision.visited[c] && !touched(c) &&
+    if (!solver_state.decision.visited[c] && touched(c) == nullptr &&
         !is_pushed(f, solver_state.instant, solver_state.decision.before[c], solver_state.noise_before[c]))
       solver_state.decision.crossings.insert_or_assign(c, crossing(f.form, solver_state.jets[c]));
     solver_state.decision.visited[c] = true;
@@ -277,9 +283,8 @@ std::vector<Block> ContactStateSolver::decide_separate_contacts(SolverState& sol
       restart_path_at_stop(f, solver_state);
       ContactState& state = solver_state.states[c];
       state = contact::next_state(contact, state, f.guard, solver_state.jets[c]);
-      if (touched(c))  // tried in stick first; the friction limit decides about slip
-        state = {contact::state_at_rest(contact),
-                 solver_state.jets[c].motion[0].ut + solver_state.touched->ut};
+      if (const auto* landing = touched(c))  // tried in stick first; the friction limit decides about slip
+        state = {contact::state_at_rest(contact), solver_state.jets[c].motion[0].ut + landing->ut};
       continue;
     }
     jointly[blocks_.of[c]] = true;

@@ -342,6 +342,7 @@ struct Spring {
   double rotation_stiffness = 0.0, rotation_damping = 0.0;  ///< moment per rad, and per rad per time
   double preload = 0.0;                                     ///< force in the undeformed structure
   std::optional<double> hot_load = {};                      ///< designed hot load of a spring hanger
+  bool restoring = false;  ///< restoring spring N / R of a pendulum, which damping beta K does not include
 };
 
 struct Support {

@@ -284,7 +284,6 @@ Certificate certificate_of(const Model& model, const RunSpec& run, const certify
   result.t_errors = std::move(verdict.t_errors);
   result.unordered = verdict.unordered;
   certify::bound_extremes(result, kept_run, kept, settings);
-  if (model.reduction) result.reduction = certify::truncation_of(model, *model.reduction, report.peaks);
   return result;
 }
 
@@ -295,8 +294,11 @@ std::size_t Certificate::certain_events() const {
       std::count_if(t_errors.begin(), t_errors.end(), [](double e) { return !std::isnan(e); }));
 }
 
-CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, Recorder& recorder,
-                                   const CertifyOptions& options) {
+namespace {
+
+/// simulate_certified() without CertifiedReport::reduction.
+CertifiedReport certified_run(const Model& model, const RunSpec& settings, Recorder& recorder,
+                              const CertifyOptions& options) {
   using Clock = std::chrono::steady_clock;
   CertifiedReport result;
   const auto plain = [&] { result.report = simulate(model, settings, recorder, options.listener); };
@@ -336,6 +338,17 @@ CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, 
   companions.finish(outcome.t, outcome.kind == Outcome::Kind::interrupted, options.go_on);
   result.certificate = certificate_of(model, run, plan, companions, own, result.report);
   result.certificate->wait = std::chrono::duration<double>(Clock::now() - ended).count();
+  return result;
+}
+
+}  // namespace
+
+CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, Recorder& recorder,
+                                   const CertifyOptions& options) {
+  CertifiedReport result = certified_run(model, settings, recorder, options);
+  if (model.reduction)
+    result.reduction = certify::truncation_of(model, *model.reduction, result.report.peaks);
+  if (result.certificate) result.certificate->reduction = result.reduction;
   return result;
 }
 

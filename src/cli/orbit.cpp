@@ -139,7 +139,7 @@ ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptio
     orbit_study::remove_checkpoint(path);
   }
   orbit_study::BranchWriter writer(path, outputs);
-  Interrupt interrupt;
+  std::optional<Interrupt> interrupt(std::in_place);
   BranchWatch watch;
   for (const BranchPoint& point : before) writer.add(point);
   CheckpointWriter checkpoints(path, read, over, before.size());
@@ -166,13 +166,14 @@ ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptio
     print(branch_table(over, branch) +
           fmt::format("\n{} points: {}\nresults: {}/ (branch.csv, branch.json)\n", branch.points.size(),
                       branch.end, path.string()));
-  const std::string drawn =
-      scripts.empty() ? "" : draw_pictures(path, scripts, " (gnuplot, once installed, draws them)");
-  if (options.tables()) print(drawn);
+  interrupt.reset();  // everything is kept: from here on, while pictures are drawn, a signal ends the program
   if (Interrupt::requested()) {
     print_error("interrupted; the points up to here are kept in " + path.string());
     return ExitCode::interrupted;
   }
+  const std::string drawn =
+      scripts.empty() ? "" : draw_pictures(path, scripts, " (gnuplot, once installed, draws them)");
+  if (options.tables()) print(drawn);
   if (!branch.complete) print_error("the branch ends early: " + branch.end);
   return branch.complete ? ExitCode::done : ExitCode::stopped;
 }
@@ -305,7 +306,7 @@ ExitCode run(const OrbitCommand& options, const std::vector<std::string>& comman
   result::check_run_directory(path, options.force);
   const SceneReader read = reader_of(options.scene, changes);
   if (!options.quiet) print_patterns(options.scene, options.settings);
-  Interrupt interrupt;
+  std::optional<Interrupt> interrupt(std::in_place);
   SearchWatch watch;
   const Orbit orbit = find_orbit(read, options.search, &watch);
   if (!orbit.found) return not_found(options, orbit);
@@ -319,6 +320,11 @@ ExitCode run(const OrbitCommand& options, const std::vector<std::string>& comman
   print_warnings(options, certified.report.warnings);
   if (options.json) print(orbit_study::orbit_json(model, orbit));
   if (options.tables()) print(text_of(scene, model, orbit, path));
+  interrupt.reset();  // everything is kept: from here on, while pictures are drawn, a signal ends the program
+  if (Interrupt::requested()) {
+    print_error("interrupted; the orbit and its run are kept in " + path.string());
+    return ExitCode::interrupted;
+  }
   const bool done = certified.report.outcome.kind == Outcome::Kind::done;
   std::vector<fs::path> scripts;
   if (!options.no_plots && done) {

@@ -17,6 +17,7 @@
 #include "base/history/pieces.hpp"
 #include "base/rounding.hpp"
 #include "contact/contact_states.hpp"
+#include "contact/curved_surface.hpp"
 #include "model/assembly/assembly.hpp"
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/dofs.hpp"
@@ -149,6 +150,7 @@ void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) 
   model.damping = dampers;
   if (model.alpha != 0.0) model.damping = SparseMatrix(model.damping + model.alpha * model.mass);
   if (model.beta != 0.0) model.damping = SparseMatrix(model.damping + model.beta * model.stiffness);
+  model.damping.prune(0.0);  // damping that was excluded from beta K leaves zeros
 }
 
 /// Finds the initial state; for run.geometric also the prestress, whose geometric stiffness is added to K.
@@ -252,6 +254,28 @@ void exclude_prestress_damping(const Scene& scene, const DofMap& map, Assembly& 
   assembly.dampers -= scene.damping.beta * assembly::assemble_geometric_stiffness(scene, map).matrix;
 }
 
+/// Subtracts beta times the restoring stiffness N_K / R of pendulums from the dampers, so that beta K does not damp it. This
+/// stiffness is that of a contact force, as contact springs, which beta K does not contain either.
+void exclude_restoring_damping(const Scene& scene, const DofMap& map, const Model& model,
+                               Assembly& assembly) {
+  const double beta = scene.damping.beta;
+  const Assembly restoring = assembly::assemble_restoring_springs(scene, map);
+  std::vector<assembly::LineSpring> more;
+  for (std::size_t k = 0; k < scene.contacts.size(); ++k)
+    if (const double extra = contact::extra_stiffness(scene.contacts[k], model.contacts[k]); extra != 0.0)
+      more.push_back({model.contacts[k].tangent, extra});
+  assembly.dampers -= beta * assembly::with_springs(restoring.stiffness, more);
+  for (std::size_t i = 0; i < assembly.moving.size(); ++i)
+    assembly.moving[i].dampers -= beta * restoring.moving[i].stiffness;
+}
+
+bool has_pendulums(const Scene& scene) {
+  return std::any_of(scene.springs.begin(), scene.springs.end(),
+                     [](const Spring& s) { return s.restoring; }) ||
+         std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                     [](const ContactSpec& c) { return c.pendulum_surface.has_value(); });
+}
+
 /// Scales of the saved run that the scene continues; if there is none, scales computed from the model.
 Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>& closed, const Model& model) {
   const Scales own = find_scales(model, map, closed, scene.run.t_end);
@@ -302,6 +326,8 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
   model.omega1 = lowest_frequency(model.mass, model.stiffness, constrain_contacts(model.contacts, closed));
   const SparseMatrix dashpots = assembly.dampers;
   if (model.geometric && scene.damping.beta != 0.0) exclude_prestress_damping(scene, map, assembly);
+  if (scene.damping.beta != 0.0 && has_pendulums(scene))
+    exclude_restoring_damping(scene, map, model, assembly);
   set_damping(scene, assembly.dampers, model);
   assembly::add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
   model.omega_max = modes::highest_frequency(model);

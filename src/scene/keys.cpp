@@ -99,7 +99,7 @@ constexpr Key table_of_keys[] = {
     {"reduction", "tolerance", positive, "", "", "", "Tolerance instead of a cutoff: the program finds the lowest cutoff that meets it. The neglected inertia then changes displacements of contacts and named nodes by less than this fraction of the greatest displacement."},
 
     {"damping", "alpha", non_negative, "1/time", "0.0", "", "Factor of the mass matrix."},
-    {"damping", "beta", non_negative, "time", "0.0", "", "Factor of the stiffness matrix, without contact springs."},
+    {"damping", "beta", non_negative, "time", "0.0", "", "Factor of the stiffness matrix, without contact springs and the restoring stiffness of pendulums."},
     {"damping", "alpha_over_omega1", non_negative, "", "", "", "alpha as a multiple of omega1, the lowest circular frequency with every initially closed contact stuck; instead of alpha."},
     {"damping", "ratios", numbers, "", "", "", "Damping ratios [z1, z2] at the two `frequencies`, instead of alpha and beta."},
     {"damping", "frequencies", numbers, "1/time", "", "", "The two frequencies [f1, f2] of `ratios`, in cycles per time."},

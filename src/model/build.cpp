@@ -365,7 +365,7 @@ Model built(const Scene& scene, Extent extent) {
     model.internal_units = machine;
     // All models of a scene share the scene's law object; its numbers are bitwise those of the converted copy.
     for (std::size_t k = 0; k < scene.contacts.size(); ++k)
-      if (!model.contacts[k].obeys_coulomb()) model.contacts[k].law = scene.contacts[k].contact_law();
+      if (scene.contacts[k].user_law) model.contacts[k].law = *scene.contacts[k].user_law;
     return model;
   } catch (const SceneError&) {
     static_cast<void>(

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "base/rounding.hpp"
-#include "contact/friction.hpp"
+#include "contact/law.hpp"
 #include "model/internal_units.hpp"
 #include "motion/point.hpp"
 #include "motion/state_systems.hpp"
@@ -255,38 +255,45 @@ double ExactEngine::expand(double scale) {
   return taylor_.friction_reach(degree_, x);
 }
 
+/// Bounds on the remainders of N and T on [0, x], from the rows of the contact: a row gives its force, or is a constraint on an
+/// acceleration.
+ContactMotion ExactEngine::force_remainders(std::size_t c, double rest, const MotionRemainder& motion) const {
+  const auto& [normal, tangent] = segment_.decision->system->rows()[c];
+  ContactMotion m;
+  if (normal.N != 0.0 && tangent.T != 0.0) {  // both forces from two linear equations
+    const double n = motion.of(normal), t = motion.of(tangent);
+    const double det = std::abs(normal.N * tangent.T - normal.T * tangent.N);
+    m.N = (std::abs(tangent.T) * n + std::abs(normal.T) * t) / det;
+    m.T = (std::abs(tangent.N) * n + std::abs(normal.N) * t) / det;
+    return m;
+  }
+  const double of_acceleration = motion.rate * motion.rate * rest;
+  m.N = normal.N != 0.0 ? motion.of(normal) / std::abs(normal.N) : of_acceleration / norm_.normal(c);
+  if (tangent.T != 0.0)
+    m.T = (motion.of(tangent) + std::abs(tangent.N) * m.N) / std::abs(tangent.T);
+  else if (norm_.tangent(c) > 0.0)
+    m.T = of_acceleration / norm_.tangent(c);
+  return m;
+}
+
 /// Bound on the remainder of a form's polynomial on [0, x]. rest: bound on the remainder of the displacements, in the norm
 /// `norm_`.
 double ExactEngine::remainder_of(const Form& form, std::size_t c, double x, double rest) const {
-  const Contact& contact = model_.contacts[c];
-  const double rate = static_cast<double>(degree_ + 3) / (motion_.whole.scale * x);
-  const double gap = norm_.normal(c) * rest, ut = norm_.tangent(c) * rest;
-  double N = contact.normal_stiffness * gap + contact.normal_damping * rate * gap, T = 0.0;
-  const State state = segment_.decision->states[c].state;
-  if (contact.takes_impulses() && !is_open(state)) N = rate * rate * rest / norm_.normal(c);
-  if (slip_sign(state) != 0)
-    T = contact::slipping_friction(contact, state) * N;
-  else if (contact.tangential_stiffness)
-    T = *contact.tangential_stiffness * ut;
-  else if (state == State::stick && norm_.tangent(c) > 0.0)
-    T = rate * rate * rest / norm_.tangent(c);
-  return std::abs(form.N) * N + std::abs(form.T) * T + std::abs(form.gap) * gap + std::abs(form.ut) * ut +
-         std::abs(form.vn) * rate * gap + std::abs(form.vt) * rate * ut +
-         std::abs(form.an) * rate * rate * gap;
-}
-
-/// Bound on the remainder of a guard with products a b: |a b - p q| <= |p| db + (|q| + db) da, where p and q are the
-/// polynomials of a and b, and da and db the bounds on their remainders.
-double ExactEngine::remainder_of(const GuardForm& guard, std::size_t c, double x, double rest) const {
-  double sum = remainder_of(guard.form, c, x, rest);
-  const motion::ContactSeries& contact = motion_.contacts()[c];
-  for (std::size_t i = 0; !guard.is_linear() && i < guard.products->size(); ++i) {
-    const auto& [a, b] = (*guard.products)[i];
-    const double reach = reach_ - contact.origin(), da = remainder_of(a, c, x, rest),
-                 db = remainder_of(b, c, x, rest);
-    sum += contact.magnitude(a, reach) * db + (contact.magnitude(b, reach) + db) * da;
+  const MotionRemainder motion{norm_.normal(c) * rest, norm_.tangent(c) * rest,
+                               static_cast<double>(degree_ + 3) / (motion_.whole.scale * x)};
+  double sum = motion.of(form);
+  if (form.N != 0.0 || form.T != 0.0) {
+    const ContactMotion forces = force_remainders(c, rest, motion);
+    sum += std::abs(form.N) * forces.N + std::abs(form.T) * forces.T;
   }
   return sum;
+}
+
+/// Bound on the remainder of a guard, from the bounds on the remainders of its forms.
+double ExactEngine::remainder_of(const GuardForm& guard, std::size_t c, double x, double rest) const {
+  const motion::ContactSeries& contact = motion_.contacts()[c];
+  return guard.error([&](const Form& form) { return remainder_of(form, c, x, rest); },
+                     [&](const Form& form) { return contact.magnitude(form, reach_ - contact.origin()); });
 }
 
 /// GuardStart::drift() for the interval from the decision to the time t_ + x scale.

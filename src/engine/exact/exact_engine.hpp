@@ -14,6 +14,7 @@
 // valid, so one series is used across several events.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <random>
@@ -81,6 +82,17 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   [[nodiscard]] bool continue_series(const contact::ContactStates& before);
   [[nodiscard]] double local_radius(const motion::LocalSeries::LocalExpansion& near, double x);
   [[nodiscard]] double local_remainder(const motion::LocalSeries::LocalExpansion& near, double x);
+  /// Bounds on the remainders of g and ut, and the factor from the remainder of a polynomial to that of its derivative.
+  struct MotionRemainder {
+    double gap, ut, rate;
+    /// Bound on the remainder of the form without its forces.
+    [[nodiscard]] double of(const Form& f) const {
+      return std::abs(f.gap) * gap + std::abs(f.ut) * ut + std::abs(f.vn) * rate * gap +
+             std::abs(f.vt) * rate * ut + std::abs(f.an) * rate * rate * gap;
+    }
+  };
+  [[nodiscard]] ContactMotion force_remainders(std::size_t contact, double rest,
+                                               const MotionRemainder& motion) const;
   [[nodiscard]] double remainder_of(const Form& form, std::size_t contact, double x, double rest) const;
   [[nodiscard]] double remainder_of(const GuardForm& guard, std::size_t contact, double x, double rest) const;
   [[nodiscard]] double series_remainder(double x);

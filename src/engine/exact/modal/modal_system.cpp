@@ -31,7 +31,7 @@ constexpr double max_work_error = 1e-12;
 std::string coupling_refusal(const Model& model) {
   if (model.size() == 0) return "no degrees of freedom";
   for (const Contact& contact : model.contacts) {
-    if (!contact.obeys_coulomb()) return "user-defined laws";
+    if (!contact.has_linear_coulomb_law()) return "user-defined laws";
     if (contact.takes_impulses()) return "rigid contacts";
     if (contact.sticks_rigidly()) return "contacts that stick without a tangential stiffness";
     if (contact.sliding_point()) return "shear elements";

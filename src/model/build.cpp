@@ -285,6 +285,14 @@ Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>&
   return {s[0], s[1], s[2], s[3], s[4]};
 }
 
+/// Removes from C what beta adds for stiffness that is no material's: of axial forces, and of pendulums.
+void exclude_geometric_damping(const Scene& scene, const DofMap& map, const Model& model,
+                               Assembly& assembly) {
+  if (scene.damping.beta == 0.0) return;
+  if (model.geometric) exclude_prestress_damping(scene, map, assembly);
+  if (has_pendulums(scene)) exclude_restoring_damping(scene, map, model, assembly);
+}
+
 enum class Extent { structure, without_warnings, all };
 
 void refuse_empty(const Scene& scene, const DofMap& map) {
@@ -325,9 +333,7 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
   if (model.geometric && extent == Extent::all) set_load_factors(scene, map, closed, model);
   model.omega1 = lowest_frequency(model.mass, model.stiffness, constrain_contacts(model.contacts, closed));
   const SparseMatrix dashpots = assembly.dampers;
-  if (model.geometric && scene.damping.beta != 0.0) exclude_prestress_damping(scene, map, assembly);
-  if (scene.damping.beta != 0.0 && has_pendulums(scene))
-    exclude_restoring_damping(scene, map, model, assembly);
+  exclude_geometric_damping(scene, map, model, assembly);
   set_damping(scene, assembly.dampers, model);
   assembly::add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
   model.omega_max = modes::highest_frequency(model);

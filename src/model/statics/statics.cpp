@@ -9,8 +9,8 @@
 #include "linear/sparse_cholesky.hpp"
 #include "model/assembly/motion_names.hpp"
 #include "model/assembly/springs.hpp"
-#include "model/statics/mechanism_check.hpp"
 #include "model/statics/free_motions.hpp"
+#include "model/statics/mechanism_check.hpp"
 #include "model/statics/mechanisms.hpp"
 #include "model/statics/static_system.hpp"
 

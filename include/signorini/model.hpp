@@ -94,7 +94,7 @@ struct StageEnd {
 /// Result of the static start (initial = "static" or "frictional").
 struct StaticStart {
   std::vector<double> reactions;  ///< -N of each contact, >= 0
-  /// Motions without stiffness, and the contact that restrains each: "horizontal motion held at contact 'first'".
+  /// Motions without stiffness, and the contacts that restrain each: "horizontal motion held at contact 'first'".
   std::vector<std::string> free_motions;
   bool frictional = false;
   std::vector<StageEvent> events;  ///< only frictional
@@ -242,6 +242,9 @@ struct Model {
   /// Contact states at the end of the run that this run continues, one per contact. Empty: this run continues
   /// no run of the same structure, or that run recorded no contacts.
   std::vector<SavedState::FinalContact> saved_contacts;
+  /// Time of the state with which this run continues another one, in that run. Its resolution is that of the first instant,
+  /// because the state may be that of an event. 0: this run continues none.
+  double saved_time = 0.0;
   Scales scales;
   double alpha = 0.0, beta = 0.0;  ///< factors of the Rayleigh damping alpha M + beta K in `damping`
   double omega1 = 0.0;     ///< lowest circular frequency, with the initially closed contacts closed; 0: none

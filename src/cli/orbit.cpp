@@ -60,16 +60,16 @@ class CheckpointWriter {
                    std::size_t before)
       : path_(path), read_(read), over_(over), before_(before) {}
 
-  void see(const std::function<BranchCheckpoint()>& mark) {
+  void write_if_due(const std::function<BranchCheckpoint()>& make) {
     const auto begin = Clock::now();
     if (written_ && begin - *written_ < checkpoint_interval_factor * took_) return;
-    write(mark());
+    write(make());
     written_ = Clock::now();
     took_ = *written_ - begin;
   }
-  void write(BranchCheckpoint mark) const {
-    mark.point_count += before_;
-    orbit_study::write_checkpoint(path_, read_, over_, mark);
+  void write(BranchCheckpoint checkpoint) const {
+    checkpoint.point_count += before_;
+    orbit_study::write_checkpoint(path_, read_, over_, checkpoint);
   }
 
  private:
@@ -142,11 +142,13 @@ ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptio
   std::optional<Interrupt> interrupt(std::in_place);
   BranchWatch watch;
   for (const BranchPoint& point : before) writer.add(point);
-  CheckpointWriter marks(path, read, over, before.size());
-  over.on_checkpoint = [&marks](const std::function<BranchCheckpoint()>& mark) { marks.see(mark); };
+  CheckpointWriter checkpoints(path, read, over, before.size());
+  over.on_checkpoint = [&checkpoints](const std::function<BranchCheckpoint()>& make) {
+    checkpoints.write_if_due(make);
+  };
   Branch branch = continue_branch(read, over, &watch, [&](const BranchPoint& point) { writer.add(point); });
   branch.points.insert(branch.points.begin(), before.begin(), before.end());
-  if (branch.last && !branch.complete) marks.write(*branch.last);
+  if (branch.last && !branch.complete) checkpoints.write(*branch.last);
   const std::string json = orbit_study::branch_json(over, first.units, branch);
   result::write_file(path / "branch.json", json);
   std::vector<std::string> labels;

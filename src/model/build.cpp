@@ -90,6 +90,7 @@ void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, Dof
     if (!scene.initial.saved) return;
     take_saved_contact_states(*scene.initial.saved, model);
     model.saved_contacts = final_contacts(*scene.initial.saved, model);
+    model.saved_time = scene.initial.saved->t;
     return;
   }
   bool loaded = false;
@@ -275,13 +276,6 @@ bool has_pendulums(const Scene& scene) {
                      [](const ContactSpec& c) { return c.pendulum_surface.has_value(); });
 }
 
-/// Removes from the damping beta K what it does not contain: the stiffness of the prestress and of pendulums.
-void exclude_undamped_stiffness(const Scene& scene, const DofMap& map, const Model& model,
-                                Assembly& assembly) {
-  if (model.geometric) exclude_prestress_damping(scene, map, assembly);
-  if (has_pendulums(scene)) exclude_restoring_damping(scene, map, model, assembly);
-}
-
 /// Scales of the saved run that the scene continues; if there is none, scales computed from the model.
 Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>& closed, const Model& model) {
   const Scales own = find_scales(model, map, closed, scene.run.t_end);
@@ -289,6 +283,14 @@ Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>&
   if (!before || !before->scales) return own;
   const auto& s = *before->scales;
   return {s[0], s[1], s[2], s[3], s[4]};
+}
+
+/// Removes from C what beta adds for stiffness that is no material's: of axial forces, and of pendulums.
+void exclude_geometric_damping(const Scene& scene, const DofMap& map, const Model& model,
+                               Assembly& assembly) {
+  if (scene.damping.beta == 0.0) return;
+  if (model.geometric) exclude_prestress_damping(scene, map, assembly);
+  if (has_pendulums(scene)) exclude_restoring_damping(scene, map, model, assembly);
 }
 
 enum class Extent { structure, without_warnings, all };
@@ -331,7 +333,7 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
   if (model.geometric && extent == Extent::all) set_load_factors(scene, map, closed, model);
   model.omega1 = lowest_frequency(model.mass, model.stiffness, constrain_contacts(model.contacts, closed));
   const SparseMatrix dashpots = assembly.dampers;
-  if (scene.damping.beta != 0.0) exclude_undamped_stiffness(scene, map, model, assembly);
+  exclude_geometric_damping(scene, map, model, assembly);
   set_damping(scene, assembly.dampers, model);
   assembly::add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
   model.omega_max = modes::highest_frequency(model);
@@ -369,7 +371,7 @@ Model built(const Scene& scene, Extent extent) {
     model.internal_units = machine;
     // All models of a scene share the scene's law object; its numbers are bitwise those of the converted copy.
     for (std::size_t k = 0; k < scene.contacts.size(); ++k)
-      if (!model.contacts[k].obeys_coulomb()) model.contacts[k].law = scene.contacts[k].contact_law();
+      if (scene.contacts[k].user_law) model.contacts[k].law = *scene.contacts[k].user_law;
     return model;
   } catch (const SceneError&) {
     static_cast<void>(

@@ -13,6 +13,7 @@
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/loads.hpp"
+#include "model/assembly/motion_names.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/initial_state.hpp"

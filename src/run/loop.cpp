@@ -106,7 +106,8 @@ bool Loop::start() {
   decide::Instant now;
   now.u = model_.u0;
   now.v = model_.v0;
-  now.resolution = s.resolution = motion::resolution_at(0.0, 0.0);
+  // A state that another run saved at an event has guards that are zero up to the resolution of its time.
+  now.resolution = s.resolution = motion::resolution_at(model_.saved_time, model_.saved_time);
   now.start = true;
   now.resolves_low_flights = engine_->resolves_low_flights;
   now.states = decide::initial_states(model_, s.forcing, 0.0, model_.u0, model_.v0);

@@ -268,7 +268,8 @@ ContactSpec read_laws(Table& table, const NameScope& space, const Scene& scene, 
       break;
   }
   if (!contact.capabilities().takes_impulses) read_elements(table, contact);
-  contact.surface_velocity = read_number_or_history(table, "surface_velocity", scene);
+  contact.surface_velocity =
+      read_number_or_history(table, "surface_velocity", scene, RecordQuantity::velocity);
   return contact;
 }
 

@@ -94,7 +94,7 @@ struct StageEnd {
 /// Result of the static start (initial = "static" or "frictional").
 struct StaticStart {
   std::vector<double> reactions;  ///< -N of each contact, >= 0
-  /// Motions without stiffness, and the contact that restrains each: "horizontal motion held at contact 'first'".
+  /// Motions without stiffness, and the contacts that restrain each: "horizontal motion held at contact 'first'".
   std::vector<std::string> free_motions;
   bool frictional = false;
   std::vector<StageEvent> events;  ///< only frictional
@@ -210,8 +210,8 @@ struct LoadCorrection {
 struct Geometric {
   Prestress forces;
   /// Buckling load factors: the lowest multiples (> 0, ascending) of these forces at which the structure, with the contacts
-  /// of the start, loses its stiffness against some motion. A factor <= 1: the structure is unstable. Empty: none exists, or
-  /// none was requested.
+  /// of the start, loses its stiffness against some motion. A factor <= 1: the structure is unstable. If no multiple > 0 exists,
+  /// as in tension, the multiples < 0 nearest to zero, which act against these forces. Empty: none exists, or none was requested.
   std::vector<double> load_factors;
 };
 

@@ -9,7 +9,7 @@
 #include "contact/constants.hpp"
 #include "contact/friction.hpp"
 #include "model/assembly/loads.hpp"
-#include "model/statics/static_system.hpp"
+#include "model/statics/start_refinement.hpp"
 
 namespace signorini::certify {
 namespace {
@@ -199,49 +199,56 @@ namespace {
 // A contact closer to its friction limit than this fraction of the limit may slide. Starts of reduced models use the same
 // value.
 constexpr double at_limit = 1e-9;
+// Unbalanced forces up to this part of the largest term are the error of the start; greater ones are loads that act at t = 0
+// and are not static. Half of the digits; chosen value, the same as for starts of reduced models.
+constexpr double most_rounding = 1e-8;
 
 bool rubs(const Model& model, const Contact& c) { return model.statics.frictional && c.has_friction(); }
 
-/// True if the contact sticks with a tangential spring and its T is below the friction limit.
-bool sticks(const Model& model, std::size_t k) {
-  const Contact& c = model.contacts[k];
-  const double limit = contact::sticking_limit(c, -model.statics.reactions[k]);
-  return c.tangential_stiffness && c.initial_slip == 0 &&
-         std::abs(c.initial_shear) < (1.0 - at_limit) * limit;
-}
-
-/// initial_shear of each contact with the stiffnesses of `near` and unchanged sliding points.
-std::vector<double> shears(const Model& model, const Model& near) {
-  std::vector<double> list;
-  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    const Contact &c = model.contacts[k], &other = near.contacts[k];
-    const bool springs = c.tangential_stiffness && *c.tangential_stiffness > 0.0;
-    list.push_back(springs ? c.initial_shear * (*other.tangential_stiffness / *c.tangential_stiffness)
-                           : c.initial_shear);
-  }
-  return list;
-}
-
-/// Unbalanced forces r at u0. N of contact springs follows from their gaps; N of rigid contacts is that of the start.
-Vector left_over(const Model& model, const std::vector<double>& reactions,
-                 const std::vector<double>& shears) {
-  Vector force = assembly::static_load(model.loads, model.size()) - model.stiffness * model.u0;
-  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    const Contact& c = model.contacts[k];
-    if (model.statics.frictional && reactions[k] > 0.0 && c.has_friction())
-      c.tangent.add_to(force, -shears[k]);
-    if (c.normal_force_given() || !(reactions[k] > 0.0)) continue;
-    c.normal.add_to(force, c.normal_spring() ? -c.normal_stiffness * c.gap_at(model.u0) : reactions[k]);
-  }
-  return force;
-}
+bool bears(const Model& model, std::size_t k) { return model.statics.reactions[k] > 0.0; }
 
 double rounding_of_gap(const Contact& contact, const Vector& u) {
   return rounding::elimination * (std::abs(contact.gap) + contact.normal.magnitude(u));
 }
 
-bool bears(const Model& model, std::size_t k) {
-  return !model.contacts[k].normal_force_given() && model.statics.reactions[k] > 0.0;
+/// Forces of the start: N of contact springs follows from their gaps, N of rigid contacts is that of the start, and T that
+/// of the last stage where the contact has no spring that keeps it.
+statics::StartForces forces_at_start(const Model& model) {
+  statics::StartForces start{model.u0, {}, {}};
+  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
+    const Contact& c = model.contacts[k];
+    start.N.push_back(-model.statics.reactions[k]);
+    if (!c.normal_force_given() && bears(model, k) && c.normal_spring())
+      start.N.back() = c.normal_stiffness * c.gap_at(model.u0);
+    const bool stored = c.tangential_stiffness || model.statics.stages.empty();
+    start.T.push_back(!rubs(model, c) || !bears(model, k) ? 0.0
+                      : stored                            ? c.initial_shear
+                                                          : model.statics.stages.back().T[k]);
+  }
+  return start;
+}
+
+/// States of the contacts at the start of `model`, with the friction of `near`.
+std::vector<statics::HeldContact> states_at_start(const Model& model, const Model& near,
+                                                  const statics::StartForces& start) {
+  std::vector<statics::HeldContact> held(model.contacts.size());
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const Contact &c = model.contacts[k], &other = near.contacts[k];
+    statics::HeldContact& state = held[k];
+    if (!c.normal_force_given() && bears(model, k))
+      state.normal = statics::HeldContact::Normal::closed;
+    else if (!c.normal_force_given() && std::abs(c.gap_at(model.u0)) <= rounding_of_gap(c, model.u0))
+      state.normal = statics::HeldContact::Normal::touching;
+    if (!rubs(model, c) || !bears(model, k)) continue;
+    const double N = start.N[k], T = start.T[k];
+    if (std::abs(T) < (1.0 - at_limit) * contact::sticking_limit(c, N)) {
+      state.sticks = true;
+    } else {
+      state.slips = T < 0.0 ? -1 : 1;
+      state.friction = N < 0.0 ? contact::sticking_limit(other, N) / -N : 0.0;
+    }
+  }
+  return held;
 }
 
 /// True if no gap with a contact spring changes its sign from model.u0 to u; gaps within rounding are ignored.
@@ -256,57 +263,45 @@ bool keeps_states(const Model& model, const Model& near, const Vector& u) {
   return true;
 }
 
-/// True for a static start whose loaded contacts with friction all stick below their limits, with tangential springs.
+/// True for a static start whose contacts have states that the equations of statics::refine_start() describe.
 bool is_known(const Model& model) {
-  if (!model.static_start || model.statics.reactions.size() != model.contacts.size()) return false;
-  for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    const Contact& c = model.contacts[k];
+  const std::size_t count = model.contacts.size();
+  if (!model.static_start || model.statics.reactions.size() != count) return false;
+  if (!model.statics.stages.empty() && model.statics.stages.back().T.size() != count) return false;
+  return std::all_of(model.contacts.begin(), model.contacts.end(), [&](const Contact& c) {
     if (!c.obeys_coulomb()) return false;
-    if (!rubs(model, c)) continue;
-    if (c.sliding_point() || c.curved_surface()) return false;
-    if (model.statics.reactions[k] > 0.0 && !sticks(model, k)) return false;
-  }
-  return true;
+    if (!rubs(model, c)) return true;
+    if (c.sliding_point() || c.curved_surface() || c.initial_slip != 0) return false;
+    return !(c.sticks_rigidly() && model.statics.stages.empty());
+  });
 }
 
 }  // namespace
 
 std::optional<PerturbedStart> perturbed_start(const Model& model, const Model& near) {
   if (!is_known(model)) return std::nullopt;
-  PerturbedStart moved{{}, shears(model, near)};
-  const std::vector<double>& reactions = model.statics.reactions;
-  const Vector p =
-      left_over(near, reactions, moved.shears) - left_over(model, reactions, shears(model, model));
-  std::vector<statics::ConstraintRow> rows;
+  statics::StartForces start = forces_at_start(model);
+  const std::vector<statics::HeldContact> held = states_at_start(model, near, start);
+  double size = 0.0;
+  Vector load = assembly::static_load(near.loads, near.size());
+  const Vector rest = statics::unbalanced_forces(
+      model.stiffness, assembly::static_load(model.loads, model.size()), model.contacts, start, size);
+  if (rest.size() > 0 && rest.cwiseAbs().maxCoeff() > most_rounding * size) load -= rest;
+  for (std::size_t k = 0; k < model.contacts.size(); ++k)  // the sliding points do not move
+    if (held[k].sticks && model.contacts[k].tangential_stiffness)
+      start.T[k] *= *near.contacts[k].tangential_stiffness / *model.contacts[k].tangential_stiffness;
+  start.u = near.u0;
+  if (!statics::refine_start(near.stiffness, load, near.contacts, held, start)) return std::nullopt;
+  if (!(start.u.allFinite() && keeps_states(model, near, start.u))) return std::nullopt;
+  PerturbedStart moved{start.u - near.u0, {}};
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
-    const Contact& c = near.contacts[k];
-    if (rubs(model, c) && reactions[k] > 0.0) rows.push_back({c.tangent, *c.tangential_stiffness, false});
-    if (c.normal_force_given()) continue;
-    if (c.normal_spring() && bears(model, k))
-      rows.push_back({c.normal, c.normal_stiffness, false});
-    else if (bears(model, k) || std::abs(c.gap_at(near.u0)) <= rounding_of_gap(c, near.u0))
-      rows.push_back({c.normal, statics::structural_stiffness(near.stiffness, c.normal), true});
+    const Contact &c = model.contacts[k], &other = near.contacts[k];
+    const double N = other.resting_force(start.u).value_or(start.N[k]);
+    const double limit = rubs(model, c) ? contact::sticking_limit(other, N) : 0.0;
+    moved.shears.push_back(c.tangential_stiffness && rubs(model, c) && bears(model, k)
+                               ? std::clamp(start.T[k], -limit, limit)
+                               : c.initial_shear);
   }
-  const auto solve = [&]() -> std::optional<Vector> {
-    const statics::ConstraintRows held(near.stiffness, rows);
-    if (!held.regular()) return std::nullopt;
-    return held.solve(p, Vector::Zero(static_cast<Eigen::Index>(rows.size()))).first;
-  };
-  std::optional<Vector> w = solve();
-  // If a rigid-body motion is free, rows ut = 0 are added until the matrix is regular.
-  for (std::size_t k = 0; !w && k < model.contacts.size(); ++k) {
-    const Combination& tangent = near.contacts[k].tangent;
-    if (tangent.terms.empty() ||
-        std::abs(tangent.dot(near.u0)) > rounding::elimination * near.u0.cwiseAbs().maxCoeff())
-      continue;
-    rows.push_back({tangent, statics::structural_stiffness(near.stiffness, tangent), true});
-    w = solve();
-  }
-  if (!w || !(w->allFinite() && keeps_states(model, near, near.u0 + *w))) return std::nullopt;
-  for (std::size_t k = 0; k < model.contacts.size(); ++k)
-    if (rubs(model, model.contacts[k]) && reactions[k] > 0.0)
-      moved.shears[k] += *near.contacts[k].tangential_stiffness * near.contacts[k].tangent.dot(*w);
-  moved.w = std::move(*w);
   return moved;
 }
 

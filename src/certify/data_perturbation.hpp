@@ -3,8 +3,8 @@
 //   x -> x (1 + delta r),   delta = 1e-15,  |r| in [1/2, 1], the same r for M_ij and M_ji
 //
 // For a reduced model, the data of the structure are perturbed: the product x^T K y of two mode shapes changes by the
-// rounding of its terms, which may cancel, so stiffnesses and shapes change (perturb_shapes). A static start changes with
-// its data if all friction is below its limit (perturbed_start). These data do not change: times of breakpoints, the
+// rounding of its terms, which may cancel, so stiffnesses and shapes change (perturb_shapes). A static start is computed
+// again from the perturbed data (perturbed_start). These data do not change: times of breakpoints, the
 // initial state of touching contacts, displacements of other static starts, closed gaps, and zeros. So laws, contact
 // states at the start and the symmetry of matrices are those of the model. The same seed gives the same result.
 #pragma once
@@ -37,27 +37,24 @@ namespace signorini::certify {
 /// Perturbs the shapes of `model`, which must be reduced. coupling: delta r_ij, equal for (i, j) and (j, i).
 void perturb_shapes(const std::function<double(Eigen::Index, Eigen::Index)>& coupling, Model& model);
 
-// Change of a static start by a perturbation of its data.
+// A static start of its own for perturbed data.
 //
-//   r = P - K u0 - sum_closed n N - sum_stuck t T
-//   (K' + sum_closed kn' n' n'^T + sum_stuck kt' t' t'^T) w = r' - r
-//   n' . w = 0                   for closed rigid contacts, and for touching contacts without force
-//   T' = T kt'/kt + kt' t' . w   so that the sliding point does not move
-//
-// Primes: perturbed data. N = kn g for contact springs; N of rigid contacts is the normal force of the start. T is
-// initial_shear.
+//   u0', T': equilibrium of the perturbed data in the contact states of the start (model/statics/start_refinement.hpp)
+//   sliding points do not move:  T' = T kt'/kt + kt' t . (u0' - u0);   at the friction limit T' = s f' |N'|
+//   n . (u0' - u0) = 0           for touching contacts without force
 //
 // The error of u0 is (condition number of K) * rounding error: ten million rounding errors if a frame stands on springs
-// that are ten million times softer. Companions with the same initial state would not reveal this error. The contact
-// states of the start do not change.
+// that are ten million times softer. Companions with the same initial state would not reveal this error, nor one that the
+// start of the run has besides: so u0' balances the perturbed data by itself, and w contains the error of u0, too. The
+// contact states of the start do not change.
 
 struct PerturbedStart {
   Vector w;                    ///< change of u0
   std::vector<double> shears;  ///< T' of each contact
 };
 /// Change of the static start of `model` if its data become those of `near`, which has the same closed gaps. nullopt if
-/// the start is not static, a contact sticks rigidly or at its friction limit, the matrix is singular, or a contact state
-/// would change.
+/// the start is not static, a contact has a sliding point or a curved surface, a motion has neither stiffness nor a
+/// contact, or a contact state would change.
 [[nodiscard]] std::optional<PerturbedStart> perturbed_start(const Model& model, const Model& near);
 
 }  // namespace signorini::certify

@@ -230,6 +230,12 @@ void ContactStateSolver::restart_path_at_stop(const FailedGuard& f, SolverState&
 
 namespace {
 
+bool lands_on_dashpot(const Model& model, const PathTouch& touch) {
+  return std::any_of(touch.landings.begin(), touch.landings.end(), [&](const PathTouch::Landing& landing) {
+    return model.contacts[landing.contact].normal_damping > 0.0;
+  });
+}
+
 std::vector<Block> selected(const std::vector<Block>& blocks, const std::vector<bool>& mask) {
   std::vector<Block> result;
   for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -248,9 +254,9 @@ std::vector<Block> ContactStateSolver::decide_separate_contacts(SolverState& sol
   const MasslessPath way{solver_state.jump_origin(), solver_state.decision.u};
   solver_state.touched = first_touch(model_, way, solver_state.failed);
   const auto touched = [&touch = solver_state.touched](std::size_t c) {
-    return touch && touch->contact == c;
+    return touch ? touch->of(c) : nullptr;
   };
-  if (solver_state.touched && model_.contacts[solver_state.touched->contact].normal_damping > 0.0)
+  if (solver_state.touched && lands_on_dashpot(model_, *solver_state.touched))
     solver_state.instant.u = way.from + solver_state.touched->fraction * (way.to - way.from);
   // Failures are deferred only until states repeat; afterwards all contacts are decided.
   if (solver_state.decision.rounds >= 2 && !solver_state.noise_increased) {
@@ -262,7 +268,7 @@ std::vector<Block> ContactStateSolver::decide_separate_contacts(SolverState& sol
     const std::size_t c = f.contact;
     const Contact& contact = model_.contacts[c];
     // A contact that closes during an instantaneous motion has no crossing: another contact caused the event.
-    if (!solver_state.decision.visited[c] && !touched(c) &&
+    if (!solver_state.decision.visited[c] && touched(c) == nullptr &&
         !is_pushed(f, solver_state.instant, solver_state.decision.before[c], solver_state.noise_before[c]))
       solver_state.decision.crossings.insert_or_assign(c, crossing(f.form, solver_state.jets[c]));
     solver_state.decision.visited[c] = true;
@@ -277,9 +283,8 @@ std::vector<Block> ContactStateSolver::decide_separate_contacts(SolverState& sol
       restart_path_at_stop(f, solver_state);
       ContactState& state = solver_state.states[c];
       state = contact::next_state(contact, state, f.guard, solver_state.jets[c]);
-      if (touched(c))  // tried in stick first; the friction limit decides about slip
-        state = {contact::state_at_rest(contact),
-                 solver_state.jets[c].motion[0].ut + solver_state.touched->ut};
+      if (const auto* landing = touched(c))  // tried in stick first; the friction limit decides about slip
+        state = {contact::state_at_rest(contact), solver_state.jets[c].motion[0].ut + landing->ut};
       continue;
     }
     jointly[blocks_.of[c]] = true;
@@ -401,25 +406,25 @@ Refusal ContactStateSolver::iterate(const motion::Forcing& before, SolverState& 
 }
 
 /// True if the contact sticks at its friction limit from this instant on, and all known derivatives of the guard are zero, so
-/// that the time of slip is unknown.
+/// that the time of slip is unknown. noise: rounding error of the distance from the limit; force.
 bool ContactStateSolver::sticks_at_limit(const SolverState& solver_state, std::size_t c,
-                                         const GuardStart& guard) {
+                                         const GuardStart& guard, double noise) {
   const bool limit = contact::is_friction_limit(guard.kind);
   const bool asked = solver_state.instant.start || solver_state.instant.jump ||
                      solver_state.decision.visited[c] || solver_state.impact_result.decided[c];
   return limit && asked && guard.at_zero && guard.leading_order < 0 &&
-         std::abs(solver_state.jets[c].motion[0].T) > guard.noise;
+         std::abs(solver_state.jets[c].motion[0].T) > noise;
 }
 
 /// True if the contact stops exactly at its static limit (up to rounding), and kinetic friction is lower. Above the limit the
 /// contact would slip at once, by much more than rounding. Not applied at the start of a run, where the friction force is at
-/// most at the limit.
+/// most at the limit. noise: as for sticks_at_limit().
 bool ContactStateSolver::stops_at_static_limit(const SolverState& solver_state, std::size_t c,
-                                               const GuardStart& guard) const {
+                                               const GuardStart& guard, double noise) const {
   const bool asked = solver_state.decision.visited[c] || solver_state.impact_result.decided[c];
   return model_.contacts[c].friction.has_static_drop() && contact::is_friction_limit(guard.kind) && asked &&
          !solver_state.instant.start && guard.at_zero && guard.leading_order > 0 &&
-         std::abs(solver_state.jets[c].motion[0].T) > guard.noise;
+         std::abs(solver_state.jets[c].motion[0].T) > noise;
 }
 
 /// True if all guards of contact c are positive by more than their rounding errors.
@@ -446,11 +451,14 @@ void ContactStateSolver::check_guard_start(SolverState& solver_state, std::size_
     for (std::size_t k = 0; k < start.derivative_noise.size(); ++k)
       start.derivative_noise[k] =
           solver_state.instant.noise_factor * guard.rounding(jet.motion.data(), jet.noise.data(), k + 2);
-  const bool rests = sticks_at_limit(solver_state, c, start);
+  // Near its zero, F^2 - T^2 = 2 |T| (F - |T|); F - |T| is a force, as the value of a linear guard of the friction limit is.
+  const double per_force = guard.is_linear() ? 1.0 : 2.0 * std::abs(jet.motion[0].T);
+  const double noise = start.noise / per_force;
+  const bool rests = sticks_at_limit(solver_state, c, start, noise);
   d.undecided = d.undecided || rests;
   const double value = guard.value(jet.motion[0]);
-  if (rests || (known.zeros == 0 && stops_at_static_limit(solver_state, c, start)))
-    d.at_limit.push_back({c, value, start.noise});
+  if (rests || (known.zeros == 0 && stops_at_static_limit(solver_state, c, start, noise)))
+    d.at_limit.push_back({c, value / per_force, noise});
   // The decision treated this value as zero, so the engine must treat it as rounding, too.
   if (start.at_zero && (start.leading_order < 0 || base != nullptr))
     start.noise = std::max(start.noise, std::abs(value));

@@ -1,37 +1,68 @@
 #include "decide/massless_jump.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "base/rounding.hpp"
 #include "contact/work.hpp"
 #include "motion/state_systems.hpp"
 
 namespace signorini::decide {
 namespace {
 
-/// Position x on the path at which the gap of the failing contact closes; nullopt: the gap does not close on the path.
-std::optional<double> closing_position(const Model& model, const MasslessPath& way, const FailedGuard& f) {
+/// Position x on the path at which a gap closes, and its rounding error.
+struct Closing {
+  double position = 0.0, noise = 0.0;
+};
+
+/// nullopt: the gap of the failing contact does not close on the path.
+std::optional<Closing> closing_of(const Model& model, const MasslessPath& way, const FailedGuard& f) {
   if (f.guard != Guard::closing || f.sign.order > 0) return std::nullopt;
   const Contact& contact = model.contacts[f.contact];
   const double from = contact.gap_at(way.from), to = contact.gap_at(way.to);
   if (!(to < 0.0 && to < from)) return std::nullopt;
-  return from > 0.0 ? from / (from - to) : 0.0;
+  if (!(from > 0.0)) return Closing{};
+  const double terms =
+      std::abs(contact.gap) + contact.normal.magnitude(way.from) + contact.normal.magnitude(way.to);
+  return Closing{from / (from - to), rounding::many_operations * terms / (from - to)};
+}
+
+/// True if the contact closes at the first position. Contacts that touch from the beginning close one after the other: their
+/// place does not depend on the path.
+bool closes_with(const Closing& first, const Closing& other) {
+  return first.position > 0.0 && other.position - first.position <= first.noise + other.noise;
 }
 
 }  // namespace
 
+const PathTouch::Landing* PathTouch::of(std::size_t contact) const {
+  const auto found = std::find_if(landings.begin(), landings.end(),
+                                  [&](const Landing& landing) { return landing.contact == contact; });
+  return found == landings.end() ? nullptr : &*found;
+}
+
 std::optional<PathTouch> first_touch(const Model& model, const MasslessPath& way,
                                      std::vector<FailedGuard>& failed) {
-  std::optional<PathTouch> first;
+  std::optional<Closing> first;
+  std::size_t contact = 0;
   for (const FailedGuard& f : failed)
-    if (const auto x = closing_position(model, way, f); x && (!first || *x < first->fraction))
-      first = PathTouch{f.contact, *x, 0.0};
+    if (const auto closing = closing_of(model, way, f);
+        closing && (!first || closing->position < first->position)) {
+      first = closing;
+      contact = f.contact;
+    }
   if (!first) return std::nullopt;
-  std::erase_if(failed, [&](const FailedGuard& f) {
-    return f.contact != first->contact && closing_position(model, way, f);
-  });
+  PathTouch touch{first->position, {}};
   const Vector all = way.to - way.from;
-  first->ut = model.contacts[first->contact].tangent.dot(all) * (first->fraction - 1.0);
-  return first;
+  std::erase_if(failed, [&](const FailedGuard& f) {
+    const auto closing = closing_of(model, way, f);
+    if (!closing) return false;
+    if (f.contact != contact && !closes_with(*first, *closing)) return true;
+    touch.landings.push_back(
+        {f.contact, model.contacts[f.contact].tangent.dot(all) * (first->position - 1.0)});
+    return false;
+  });
+  return touch;
 }
 
 void defer_slip_failures(const Model& model, std::vector<FailedGuard>& failed) {

@@ -1,9 +1,11 @@
-// massless_jump.hpp: massless parts that move instantaneously during a decision: the first contact that closes on the path of
+// massless_jump.hpp: massless parts that move instantaneously during a decision: the first contacts that close on the path of
 // these parts, and the end of the path.
 //
 //   u(x) = (1 - x) u_from + x u_to,   0 <= x <= 1:   a gap closes at (1 - x) g_from + x g_to = 0
 //
-// No time passes on such a path. Contacts that close on the path are ordered by the position x at which they close.
+// No time passes on such a path. Contacts that close on the path are ordered by the position x at which they close. Contacts
+// that close at one position, such as two halves of a contact, close together and stick there: one of them alone would
+// lead the path elsewhere, and the others would close at another place.
 #pragma once
 
 #include <optional>
@@ -21,15 +23,21 @@ struct MasslessPath {
   const Vector &from, &to;
 };
 
-/// The first contact that closes on the path.
+/// The first contacts that close on the path.
 struct PathTouch {
-  std::size_t contact;
-  double fraction;  ///< position x at which the contact closes
-  double ut;        ///< ut at the position x minus ut at the end of the path
+  double fraction;  ///< position x at which they close
+  struct Landing {
+    std::size_t contact;
+    double ut;  ///< ut at the position x minus ut at the end of the path
+  };
+  std::vector<Landing> landings;
+
+  /// nullptr: the contact is not one of them.
+  [[nodiscard]] const Landing* of(std::size_t contact) const;
 };
 
-/// Returns the first contact that closes on the path. Removes from `failed` the contacts that close later, because the path
-/// changes at the first contact. nullopt: no contact closes.
+/// Returns the first contacts that close on the path. Removes from `failed` the contacts that close later, because the path
+/// changes at the first contacts. nullopt: no contact closes.
 [[nodiscard]] std::optional<PathTouch> first_touch(const Model& model, const MasslessPath& way,
                                                    std::vector<FailedGuard>& failed);
 

@@ -31,7 +31,7 @@ struct SolverState {
   Vector initial_u = {};  // at the start: the given u, before massless parts move
   std::vector<MotionJet> motion_up_to_instant =
       {};  // motion up to the instant; empty if Instant::resting_limits is empty
-  std::optional<PathTouch> touched = {};          // first contact that closes on the path in this round
+  std::optional<PathTouch> touched = {};          // first contacts that close on the path in this round
   std::vector<std::size_t> stopped_on_path = {};  // contacts that have slid instantaneously and stopped
   // Contacts with a guard that is not clearly positive; nullopt: unknown, any contact may have one.
   std::optional<std::vector<std::size_t>> open = {};

@@ -32,6 +32,9 @@ void refuse_file(const Table& table, std::string_view key, const std::filesystem
 }
 
 std::ifstream open_data_file(const Table& table, std::string_view key, const std::filesystem::path& path) {
+  // The system would end the name at NUL, and open another file.
+  if (path.native().find('\0') != std::string::npos)
+    table.wrong(key, "the name of a file, which has no character NUL");
   if (const std::string why = base::input_file_error(path); !why.empty())
     refuse_file(table, key, path, why + ", expected a file");
   errno = 0;

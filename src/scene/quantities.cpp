@@ -1,6 +1,5 @@
 #include "scene/quantities.hpp"
 
-#include "contact/law/user_law.hpp"
 #include "scene/components.hpp"
 #include "scene/saved_state.hpp"
 
@@ -150,7 +149,8 @@ void visit_contact(ContactSpec& c, const Visit& visit) {
   visit_history(c.surface_velocity, velocity, visit);
   visit(c.initial_shear, force);
   visit_optional(c.capture_velocity, velocity, visit);
-  if (c.user_law) c.user_law = visit_law_constants(*c.user_law, visit);
+  if (!c.user_law) return;
+  if (auto law = (*c.user_law)->with_constants(visit)) c.user_law = std::move(law);
 }
 
 /// Exponent of length in a load's amplitude: force times length to this power.

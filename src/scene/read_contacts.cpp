@@ -492,6 +492,7 @@ void read_pendulums(Table& top, Scene& scene, ResolvedScene& record) {
     spring.against = against;
     spring.direction = contact.tangent->vector;
     spring.stiffness = carried / radius;
+    spring.restoring = true;
     if (spring.stiffness > 0.0) scene.springs.push_back(spring);
     add_contact(table, contact, names, scene);
     read_rim(table, contact, names, scene);

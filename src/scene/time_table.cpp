@@ -27,9 +27,9 @@ class TableReader {
       const std::vector<TableWord> words = words_of_line(line);
       if (words.empty()) continue;
       last = lines_.number();
-      const bool heading = heading_allowed && !base::parse_number(words[0].text);
+      const bool is_heading = heading_allowed && !base::parse_number(words[0].text);
       heading_allowed = false;
-      if (heading) {
+      if (is_heading) {
         if (values_only()) refuse_heading_of_times(words);
         continue;
       }

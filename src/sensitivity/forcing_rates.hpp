@@ -1,12 +1,11 @@
-// forcing_rates.hpp: derivatives with respect to a parameter of the forcing on one side of an instant, and of the static
-// start.
+// forcing_rates.hpp: derivatives with respect to a parameter of the forcing on one side of an instant.
 //
 //   P_p = sum_i ( d_i,p f_i + d_i f_i,p )     loads, as series in time
 //   q_p, s_p                                  normal forces and surface motions, as series in time
 //   tau_p                                     breakpoints of the forcing
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "motion/forcing.hpp"
 #include "sensitivity/model_derivative.hpp"
@@ -57,17 +56,5 @@ struct MovingBreakpoint {
 [[nodiscard]] std::vector<MovingBreakpoint> breakpoints_at(const Model& model,
                                                            const ModelDerivative& derivative, double t,
                                                            double resolution);
-
-// Derivative of the static start with respect to a parameter.
-//
-//   (K + sum_closed kn n n^T) w = P_p - K_p u0 - sum_closed ( n_p N + n N_p ),   N_p = kn_p g + kn (g0_p + n_p . u0)
-//   rigid contacts: K w + sum n N_p = P_p - K_p u0 - sum n_p N,   n . w = -g0_p - n_p . u0
-//   t_h . w = -t_h,p . u0 at contacts h whose tangent fixes a motion without stiffness
-//
-// A difference of two equilibria would have the rounding errors of their solves divided by the step; this derivative has the
-// rounding errors of one solve.
-
-/// w for a model with a frictionless static start; nullopt: the matrix is singular even with fixed tangents of contacts.
-[[nodiscard]] std::optional<Vector> static_rate(const Model& model, const ModelDerivative& derivative);
 
 }  // namespace signorini::sensitivity

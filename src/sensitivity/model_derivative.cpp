@@ -10,8 +10,8 @@
 #include "contact/friction.hpp"
 #include "model/build.hpp"
 #include "model/internal_units.hpp"
-#include "sensitivity/forcing_rates.hpp"
 #include "sensitivity/parameter.hpp"
+#include "sensitivity/static_rate.hpp"
 
 namespace signorini::sensitivity {
 
@@ -355,7 +355,7 @@ class Differences {
   const Model& model_;
   const std::string& path_;
   double value_, step_ = 0.0;
-  bool start_is_static_;  // true: u0 is computed from the other data (static_rate() in forcing_rates.hpp)
+  bool start_is_static_;  // true: u0 is computed from the other data (static_rate.hpp)
   ModelDerivative base_;
   std::vector<long> shape_;
   std::vector<Moved> moved_;

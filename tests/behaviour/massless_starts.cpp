@@ -82,6 +82,57 @@ TEST_CASE("what closes on the way keeps the slip of the way from there") {
   CHECK(c.T == doctest::Approx(T).epsilon(1e-9));
 }
 
+TEST_CASE("two halves of a contact that a part without mass reaches at once are the whole") {
+  // The pull exceeds friction or does not; the halves have the parts 1 and 3 of the stiffnesses.
+  for (const std::string& engine : locating_engines)
+    for (const double along : {1.0, 5.0, -5.0}) {
+      CAPTURE(engine);
+      CAPTURE(along);
+      const Scene whole = parse_scene(scene_text(0.3, along, 0.0, 0.4, engine), "whole.toml");
+      Scene split = whole;
+      split.contacts.push_back(whole.contacts[0]);
+      split.contacts[1].name = "other";
+      for (std::size_t i = 0; i < 2; ++i) {
+        const double part = i == 0 ? 0.25 : 0.75;
+        split.contacts[i].normal_stiffness *= part;
+        *split.contacts[i].tangential_stiffness *= part;
+      }
+      const ContactSample one = simulate(build_model(whole), whole.run).rows.front().contacts[0];
+      const Result halves = simulate(build_model(split), split.run);
+      REQUIRE(halves.report.outcome.reason == "");
+      const std::vector<ContactSample>& two = halves.rows.front().contacts;
+      for (std::size_t i = 0; i < 2; ++i) {
+        const double part = i == 0 ? 0.25 : 0.75;
+        CHECK(two[i].N == doctest::Approx(part * one.N).epsilon(1e-9));
+        CHECK(two[i].T == doctest::Approx(part * one.T).epsilon(1e-9));
+      }
+    }
+}
+
+TEST_CASE("halves of a contact that lands by a load's jump slip when the whole does") {
+  const std::string folder = std::string(SIGNORINI_TEST_DATA) + "/scenes/massless/lands-at-load-jump";
+  const std::vector<Override> plain{{"run.certify", "false"}};
+  const Scene whole = read_scene(folder + ".toml", plain), split = read_scene(folder + "-split.toml", plain);
+  const Result one = simulate(build_model(whole), whole.run), two = simulate(build_model(split), split.run);
+  // Contacts of the whole: c0, c1; of the halves: c0, c0zz, c1, c1zz.
+  const auto times = [](const Result& result, int contact) {
+    std::vector<double> list;
+    for (const Event& event : result.events)
+      if (event.contact == contact) list.push_back(event.t);
+    return list;
+  };
+  for (const int contact : {0, 1}) {
+    const std::vector<double> expected = times(one, contact);
+    REQUIRE(expected.size() > 3);
+    for (const int half : {2 * contact, 2 * contact + 1}) {
+      const std::vector<double> found = times(two, half);
+      REQUIRE(found.size() == expected.size());
+      for (std::size_t i = 0; i < found.size(); ++i)
+        CHECK(found[i] == doctest::Approx(expected[i]).epsilon(1e-10));
+    }
+  }
+}
+
 TEST_SUITE_END();
 
 }  // namespace signorini::tests::massless_starts

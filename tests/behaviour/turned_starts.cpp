@@ -43,9 +43,9 @@ std::size_t named(const Model& model, const std::string& name) {
 
 TEST_SUITE_BEGIN("behaviour/turned_starts");
 
-TEST_CASE("a stop that carries nothing holds nothing: the first contact with friction holds the motion") {
-  // Nothing resists a and b sideways: floor_a holds them by ut = 0. b is on a rigid floor, that of a gives by m g/kn = w,
-  // and the spring between them, which has no force, moves b aside by 0.2 w.
+TEST_CASE("a stop that carries nothing holds nothing: the floors share the motion by their forces") {
+  // Nothing resists a and b sideways. b is on a rigid floor, that of a gives by m g/kn = w, and the spring between them,
+  // which has no force, keeps b aside by 0.2 w: least 3 ut_a^2 + 1.4 (ut_a + 0.2 w)^2, by the masses.
   const std::string text = opening + R"(gravity = [0.0, -10.0]
 [run]
 t_end = 0.1
@@ -93,11 +93,15 @@ friction = 0.5
     const auto gap = [&](const char* name) { return model.contacts[named(model, name)].gap_at(model.u0); };
     CHECK(gap("floor_a") == doctest::Approx(-w).epsilon(1e-9));
     CHECK(std::abs(gap("floor_b")) < 1e-15);
-    CHECK(gap("guide+") == doctest::Approx(0.05 + 0.1 * w / across).epsilon(1e-9));
-    CHECK(gap("guide-") == doctest::Approx(0.05 - 0.1 * w / across).epsilon(1e-9));
-    CHECK(std::abs(model.contacts[named(model, "floor_a")].tangent.dot(model.u0)) < 1e-12);
-    CHECK(std::abs(model.contacts[named(model, "floor_b")].tangent.dot(model.u0)) ==
-          doctest::Approx(0.2 * w).epsilon(1e-6));
+    const double a = model.contacts[named(model, "floor_a")].tangent.dot(model.u0);
+    const double b = model.contacts[named(model, "floor_b")].tangent.dot(model.u0);
+    CHECK(std::abs(a) == doctest::Approx(1.4 / 4.4 * 0.2 * w).epsilon(1e-9));
+    CHECK(std::abs(b) == doctest::Approx(3.0 / 4.4 * 0.2 * w).epsilon(1e-9));
+    CHECK(a * b < 0.0);
+    // b moves by 0.2 w against a, along the spring, which is inclined: so a moves along (1, 0) by -+ 1.4 / 4.4 of it.
+    const double along = gap("guide+") - 0.05;
+    CHECK(gap("guide-") - 0.05 == doctest::Approx(-along).epsilon(1e-9));
+    CHECK(std::abs(along) == doctest::Approx((0.1 - 1.4 / 4.4 * 0.2) * w / across).epsilon(1e-9));
     CHECK(model.statics.reactions[named(model, "guide+")] == 0.0);
     CHECK(model.statics.reactions[named(model, "guide-")] == 0.0);
   }

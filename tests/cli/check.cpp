@@ -57,8 +57,8 @@ TEST_CASE("cli check: the pipeline in an engineer's words") {
   const Ending ending = shell.run({"check", pipeline, "--columns"});
   for (const char* words : {"51 degrees of freedom, none massless; 2 contacts",
                             "mass: 9.6 t, centre at (6.75, 5.25) m, weight 94.176 kN", "58.86", "35.316",
-                            "horizontal motion held at contact 'first'", "3 free motions", "alpha = 17.81",
-                            "jump  load 1", "1201 rows of history.csv", "A.wz  rad/s"}) {
+                            "horizontal motion held at contacts 'first' and 'second'", "3 free motions",
+                            "alpha = 17.81", "jump  load 1", "1201 rows of history.csv", "A.wz  rad/s"}) {
     CAPTURE(words);
     CHECK(contains(ending.out, words));
   }

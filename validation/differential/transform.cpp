@@ -111,12 +111,11 @@ void shuffle_springs(Scene& scene, Random& draw) {
           static_cast<std::size_t>(std::find(places.begin(), places.end(), output.spring) - places.begin());
 }
 
-/// The first contact of the file holds what nothing else does; a stop that it is then held at has no force. Not for a
+/// True if a stop touches at the start without a force: its reaction is zero up to rounding, of either sign. Not for a
 /// scene that is refused.
-bool has_free_start(const Scene& scene) {
+bool touches_without_force(const Scene& scene) {
   if (!scene.initial.is_static) return false;
   const Model model = build_model(scene);
-  if (!model.statics.free_motions.empty()) return true;
   for (std::size_t k = 0; k < model.contacts.size(); ++k) {
     const Contact& contact = model.contacts[k];
     const double size = std::abs(contact.gap) + contact.normal.magnitude(model.u0);
@@ -197,7 +196,7 @@ Transformed permuted(const Scene& scene, std::uint64_t seed) {
   shuffle_springs(result.scene, draw);
   shuffle(result.scene.supports, draw);
   // Seams name contacts by their place.
-  if (scene.seams.empty() && !has_free_start(scene)) shuffle(result.scene.contacts, draw);
+  if (scene.seams.empty() && !touches_without_force(scene)) shuffle(result.scene.contacts, draw);
   shuffle(result.scene.loads, draw);
   return result;
 }

@@ -32,7 +32,7 @@ struct Transformed {
 [[nodiscard]] std::optional<Transformed> turned(const Scene& scene, double degrees);
 /// Nothing for [matrices], and for meshes, whose elements would be inside out.
 [[nodiscard]] std::optional<Transformed> mirrored(const Scene& scene);
-/// Nodes stay in order beside meshes, contacts beside seams, and where the static start leaves a motion free: the first one that can holds it.
+/// Nodes stay in order beside meshes, contacts beside seams, and where one touches at a static start without a force.
 [[nodiscard]] Transformed permuted(const Scene& scene, std::uint64_t seed);
 /// Nothing where there is no member.
 [[nodiscard]] std::optional<Transformed> reversed(const Scene& scene);

@@ -154,7 +154,8 @@ void follow_obstacles(const Scene& scene, DofMap& map) {
   std::vector<ObstacleContact> contacts;
   for (const ContactSpec& spec : scene.contacts)
     if (spec.normal || spec.tangent) contacts.emplace_back(spec, map);
-  // What touches a node with a relative motion has one, too. Each round gives at least one component its obstacle.
+  // A node that touches one with a relative motion has a relative motion, too. Each round gives at least one component its
+  // obstacle.
   for (bool changed = true; changed;) {
     changed = false;
     for (const ObstacleContact& contact : contacts) changed = contact.follow(scene, map) || changed;

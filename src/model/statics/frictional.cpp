@@ -14,6 +14,7 @@
 #include "model/statics/mechanisms.hpp"
 #include "model/statics/quasi_static_rates.hpp"
 #include "model/statics/smallest_motion.hpp"
+#include "model/statics/start_refinement.hpp"
 #include "model/statics/static_system.hpp"
 
 namespace signorini::statics {
@@ -43,6 +44,7 @@ class LoadingPath {
       load_ += stage.load;
       check_equilibrium();
     }
+    refine();
     return result();
   }
 
@@ -51,7 +53,10 @@ class LoadingPath {
     standing_ = std::move(from.margins);
     found_ = std::move(from.start);
     found_.reactions.clear();
+    double size = 0.0;
+    load_ = stage.load - unbalanced_forces(stiffness_, Vector::Zero(u_.size()), contacts_, forces(), size);
     grow(stage);
+    refine();
     return result();
   }
 
@@ -64,6 +69,41 @@ class LoadingPath {
       result.shears.push_back(s.T);
     }
     return result;
+  }
+
+  [[nodiscard]] StartForces forces() const {
+    StartForces all{u_, {}, {}};
+    for (const LimitMargin& s : standing_) {
+      all.N.push_back(s.N);
+      all.T.push_back(s.T);
+    }
+    return all;
+  }
+
+  /// Removes the rounding errors that the steps of the path have left.
+  void refine() {
+    std::vector<HeldContact> held;
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      const LimitMargin& s = standing_[k];
+      HeldContact& contact = held.emplace_back();
+      if (is_open(s.state)) continue;
+      contact.normal = HeldContact::Normal::closed;
+      contact.slips = rubs(k) ? slip_sign(s.state) : 0;
+      contact.friction = friction(k);
+      contact.sticks = rubs(k) && contact.slips == 0;
+    }
+    StartForces now = forces();
+    if (!refine_start(stiffness_, load_, contacts_, held, now)) return;
+    u_ = std::move(now.u);
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      LimitMargin& s = standing_[k];
+      s.N = std::min(0.0, now.N[k]);
+      s.T = now.T[k];
+      if (!contacts_[k].normal_force_given()) s.gap = contacts_[k].gap_at(u_);
+      if (found_.stages.empty()) continue;
+      found_.stages.back().N[k] = s.N;
+      found_.stages.back().T[k] = s.T;
+    }
   }
 
   /// Applies the interference of contacts with a negative gap (compressed in the undeformed state) before all stages:

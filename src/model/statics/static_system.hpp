@@ -1,6 +1,6 @@
 // static_system.hpp: equilibrium of a structure with given closed contacts.
 //
-//   (K + sum_closed kn n n^T) u = P - sum_closed kn g0 n,    t_h . u = 0 at contacts h that fix free motions
+//   (K + sum_closed kn n n^T) u = P - sum_closed kn g0 n
 //   rigid contacts: n . u = -g0 is enforced by a multiplier N (load P - n N); kn is the structure's own stiffness
 //                   and does not affect the solution
 #pragma once
@@ -36,24 +36,40 @@ struct ConstraintRow {
 [[nodiscard]] bool is_also_constrained(const std::vector<ConstraintRow>& rows, const std::vector<bool>& loose,
                                        std::size_t row);
 
+// Solutions are refined: residual.hpp sums the unbalanced forces, and corrections with the same factors follow until they
+// no longer shrink. So u has the error of its own rounding, whatever stiffness the rigid rows have in the matrix, and
+// whatever the order of the rows.
+//
+// Pins are springs in the matrix only. They make it regular where a motion has no stiffness, and carry nothing in a
+// solution whose loads do no work on such motions.
+
 class ConstraintRows {
  public:
-  ConstraintRows(const SparseMatrix& k, std::vector<ConstraintRow> rows);
+  /// k must outlive the object. pins: their stiffness is the structure's own.
+  ConstraintRows(const SparseMatrix& k, std::vector<ConstraintRow> rows,
+                 const std::vector<Combination>& pins = {});
 
-  /// True if the matrix is positive definite: every motion has stiffness.
+  /// True if the matrix is positive definite: every motion has stiffness, or a pin.
   [[nodiscard]] bool regular() const { return regular_; }
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] const SparseMatrix& matrix() const { return matrix_; }
   /// Returns u and the forces F, one per row, for loads P and given r. Requires regular().
-  [[nodiscard]] std::pair<Vector, Vector> solve(Vector load, const Vector& r) const;
+  [[nodiscard]] std::pair<Vector, Vector> solve(const Vector& load, const Vector& r) const;
+  /// solve() without refinement, with the error eps cond(K).
+  [[nodiscard]] std::pair<Vector, Vector> solve_once(Vector load, const Vector& r) const;
+  /// Corrects u and the forces of the rigid rows until they balance the load up to rounding, and sets those of springs.
+  void refine(const Vector& load, const Vector& r, Vector& u, Vector& forces) const;
 
  private:
   [[nodiscard]] const ConstraintRow& rigid_row(Eigen::Index i) const {
     return rows_[rigid_[static_cast<std::size_t>(i)]];
   }
-  [[nodiscard]] std::vector<assembly::LineSpring> springs() const;
+  [[nodiscard]] std::vector<assembly::LineSpring> springs(const std::vector<Combination>& pins) const;
+  [[nodiscard]] Vector response(const Combination& form) const;
 
+  const SparseMatrix* k_;
   std::vector<ConstraintRow> rows_;
+  std::vector<assembly::LineSpring> springs_;  // of rows and pins
   SparseMatrix matrix_;
   linear::SymmetricSolver solver_;
   bool regular_;
@@ -71,7 +87,6 @@ struct StaticProblem {
   const std::vector<Contact>& contacts;
   const assembly::DofMap& map;
   double rigid_stiffness_factor = 1.0;  ///< stiffness of rigid contacts / structural_stiffness()
-  bool forces = false;  ///< true: the forces of the weak support are removed from the solution
 
   [[nodiscard]] int size() const { return static_cast<int>(load.size()); }
   [[nodiscard]] bool is_support(std::size_t k) const { return !contacts[k].normal_force_given(); }
@@ -86,36 +101,6 @@ struct StaticProblem {
   /// Load P - sum_closed kn g0 n.
   [[nodiscard]] Vector right_side(const std::vector<bool>& closed) const;
 };
-
-/// A free motion, and the contact whose condition ut = 0 fixes it. -1: no contact; the motion is set to zero.
-struct FreeMotion {
-  Vector motion;
-  int contact_index = -1;
-};
-
-/// A basis of the null space `null` (n x m), with the contact that fixes each motion. Contacts are taken in
-/// file order: closed ones and sliders first, then open ones unless `pressed_only`. A motion has the slip 1
-/// at the contact that fixes it, and 0 at the other contacts of the basis.
-[[nodiscard]] std::vector<FreeMotion> constrain_free_motions(const StaticProblem& problem,
-                                                             const Eigen::MatrixXd& null,
-                                                             const std::vector<bool>& closed,
-                                                             bool pressed_only = false);
-
-/// The displacement with the free motions fixed, and -N of every contact. At closed rigid contacts -N is the reaction that
-/// keeps the gap closed, with either sign.
-struct ConstrainedState {
-  Vector u;
-  std::vector<double> reactions;
-};
-[[nodiscard]] ConstrainedState solve_constrained(const StaticProblem& problem,
-                                                 const std::vector<bool>& closed,
-                                                 const std::vector<FreeMotion>& held);
-
-/// Work of the loads on a free motion, at the displacement u of solve_constrained(); zero in equilibrium. k and p: matrix()
-/// and right_side() of the problem. Work below rounding, or below 1e-9 of the largest load times the largest displacement, is
-/// set to zero.
-[[nodiscard]] double driving_work(const StaticProblem& problem, const SparseMatrix& k, const Vector& p,
-                                  const Vector& motion, const Vector& u);
 
 // -N of a contact before the motion starts.
 //

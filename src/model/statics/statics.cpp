@@ -5,9 +5,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/eigen_dense.hpp"
 #include "linear/sparse_cholesky.hpp"
 #include "model/assembly/motion_names.hpp"
 #include "model/assembly/springs.hpp"
+#include "model/statics/free_motions.hpp"
 #include "model/statics/mechanism_check.hpp"
 #include "model/statics/mechanisms.hpp"
 #include "model/statics/static_system.hpp"
@@ -17,7 +19,6 @@ namespace {
 
 constexpr double only_touches =
     1e-13;  // smaller gaps, relative to the largest translation, are rounding errors
-constexpr double no_reaction = 1e-9;  // relative to the largest load: smaller reactions drive no motion
 
 struct Trial {
   std::vector<FreeMotion> held;
@@ -39,7 +40,7 @@ Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
   std::vector<std::size_t> order(trial.held.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_partition(order.begin(), order.end(),
-                        [&](std::size_t j) { return trial.held[j].contact_index < 0; });
+                        [&](std::size_t j) { return trial.held[j].contacts.empty(); });
   const SparseMatrix k = problem.matrix(closed);
   const Vector p = problem.right_side(closed);
   for (const std::size_t j : order) {
@@ -60,13 +61,13 @@ Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
   const Trial gripped = attempt(problem, all);
   if (gripped.driven >= 0) {
     const std::string name = assembly::describe_motion(gripped.driven_motion().motion, problem.map);
-    const int holder = gripped.driven_motion().contact_index;
-    const std::string hold = holder < 0
+    const std::vector<std::size_t>& holders = gripped.driven_motion().contacts;
+    const std::string hold = holders.empty()
                                  ? "nothing restrains this motion"
                                  : fmt::format(
-                                       "only friction at contact '{}' could prevent this motion, and initial "
+                                       "only friction at {} could prevent this motion, and initial "
                                        "= \"static\" has no friction; use initial = \"frictional\"",
-                                       problem.contacts[static_cast<std::size_t>(holder)].name);
+                                       names_of_contacts(problem.contacts, holders));
     throw SceneError(place, key,
                      fmt::format("no static equilibrium: the static loads drive the {} with {:.4g} {}; {}",
                                  name, gripped.force, unit, hold));
@@ -87,17 +88,6 @@ Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
                                assembly::describe_motion(found.driven_motion().motion, problem.map)));
 }
 
-/// True if the reaction is zero up to rounding: its work along the normal is below no_reaction times the largest work.
-bool has_no_reaction(const StaticProblem& problem, std::size_t k, double reaction) {
-  const double greatest = problem.size() == 0 ? 0.0 : problem.load.cwiseAbs().maxCoeff();
-  double squares = 0.0, sum = 0.0;
-  for (const auto& [dof, factor] : problem.contacts[k].normal.terms) {
-    squares += factor * factor;
-    sum += std::abs(factor);
-  }
-  return std::abs(reaction) * squares <= no_reaction * greatest * sum;
-}
-
 /// Returns a factor for the springs of rigid contacts. If only these contacts prevent a motion of negative energy, their
 /// springs must be stiff. Motions of negative energy that only friction prevents may remain.
 double find_rigid_stiffness_factor(StaticProblem problem, const std::vector<bool>& closed) {
@@ -113,11 +103,57 @@ double find_rigid_stiffness_factor(StaticProblem problem, const std::vector<bool
   return best;
 }
 
+/// Diagonal of the rectangle around the nodes; 0 in matrix scenes.
+double size_of_structure(const assembly::DofMap& map) {
+  double low[2] = {0.0, 0.0}, high[2] = {0.0, 0.0};
+  bool first = true;
+  for (const element::MeshNode& node : map.mesh.nodes) {
+    const double at[2] = {node.x, node.y};
+    for (int i = 0; i < 2; ++i) {
+      low[i] = first ? at[i] : std::min(low[i], at[i]);
+      high[i] = first ? at[i] : std::max(high[i], at[i]);
+    }
+    first = false;
+  }
+  return std::hypot(high[0] - low[0], high[1] - low[1]);
+}
+
+/// Part of u along the motions (n x m), least squares of the displacements; size: length that rotations are multiplied with.
+Vector part_along(const Eigen::MatrixXd& motions, const Vector& u, const assembly::DofMap& map, double size) {
+  Vector lengths(u.size());
+  for (int i = 0; i < u.size(); ++i) lengths[i] = map.dofs[static_cast<std::size_t>(i)].rotation ? size : 1.0;
+  return motions * base::least_squares(Eigen::MatrixXd(lengths.asDiagonal() * motions),
+                                       Eigen::VectorXd(lengths.cwiseProduct(u)));
+}
+
+/// Errors: SceneError if a motion that only contacts without force resist goes farther than the structure is large. Such a
+/// motion is a mechanism: a contact closes its gap by a lever that may be short, and no force says how far the motion goes.
+void refuse_far_motion(const StaticProblem& problem, const std::vector<bool>& closed, const Trial& trial,
+                       const SourcePlace& place, const std::string& unit, const char* key) {
+  double size = size_of_structure(problem.map);
+  if (!(size > 0.0)) return;
+  for (const Contact& c : problem.contacts) size = std::max(size, std::abs(c.gap));
+  if (assembly::max_translation(trial.u, problem.map) <= size) return;
+  std::vector<bool> loaded = closed;
+  for (std::size_t k = 0; k < loaded.size(); ++k)
+    loaded[k] = closed[k] && !has_no_reaction(problem, k, trial.reactions[k]);
+  const Eigen::MatrixXd motions = null_motions(problem.matrix(loaded));
+  if (motions.cols() == 0) return;
+  const Vector motion = part_along(motions, trial.u, problem.map, size);
+  const double way = assembly::max_translation(motion, problem.map);
+  if (way <= size) return;
+  throw SceneError(
+      place, key,
+      fmt::format("a static start is impossible, the structure is a mechanism: no force restrains the {}, "
+                  "which would move a node by {:.4g} {}, but the structure and its gaps are only {:.4g} {} "
+                  "large; add a support, a spring or a contact, or give the initial state",
+                  assembly::describe_motion(motion, problem.map), way, unit, size, unit));
+}
+
 std::string motion_name(const StaticProblem& problem, const FreeMotion& f) {
   const std::string name = assembly::describe_motion(f.motion, problem.map);
-  if (f.contact_index < 0) return name + ", which no contact restrains, set to zero at the start";
-  return fmt::format("{} held at contact '{}'", name,
-                     problem.contacts[static_cast<std::size_t>(f.contact_index)].name);
+  if (f.contacts.empty()) return name + ", which no contact restrains, set to zero at the start";
+  return fmt::format("{} held at {}", name, names_of_contacts(problem.contacts, f.contacts));
 }
 
 }  // namespace
@@ -125,7 +161,7 @@ std::string motion_name(const StaticProblem& problem, const FreeMotion& f) {
 Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
                              const std::vector<Contact>& contacts, const assembly::DofMap& map,
                              const SourcePlace& place, const Units& units, const EquilibriumSearch& search) {
-  StaticProblem problem{stiffness, load, contacts, map, 1.0, search.mechanisms};
+  StaticProblem problem{stiffness, load, contacts, map, 1.0};
   std::vector<bool> all(contacts.size(), false);
   for (std::size_t k = 0; k < all.size(); ++k) all[k] = problem.is_support(k);
   if (!search.mechanisms) refuse_mechanisms(problem, all, place, search.key);
@@ -156,6 +192,7 @@ Equilibrium find_equilibrium(const SparseMatrix& stiffness, const Vector& load,
       }
     }
     if (next == closed || round == 20) {
+      refuse_far_motion(problem, closed, trial, place, units.length, search.key);
       Equilibrium result{trial.u, {}, closed};
       for (std::size_t k = 0; k < contacts.size(); ++k)
         result.start.reactions.push_back(std::max(0.0, trial.reactions[k]));

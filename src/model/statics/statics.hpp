@@ -9,10 +9,9 @@
 // This minimum is found by Newton's method with an exact line search, which cannot cycle, starting with all contacts
 // closed.
 //
-// A null motion of K + sum_closed kn n n^T on which the loads do no work is free: such a motion is fixed by ut = 0 at
-// the first suitable contact in file order. A null motion on which the loads do work is refused. Sliders have
-// no force here, but can fix a free motion. A contact whose reaction is zero up to rounding is open, unless its gap
-// would then be negative.
+// A null motion of K + sum_closed kn n n^T on which the loads do no work is free, and the contacts share it
+// (free_motions.hpp). A null motion on which the loads do work is refused. Sliders have no force here, but can hold a
+// free motion. A contact whose reaction is zero up to rounding is open, unless its gap would then be negative.
 //
 // With geometric stiffness (run.geometric) K may have negative energy while contacts are open, so that the energy has
 // no minimum. Newton's method then starts with the contacts that are closed without geometric stiffness.

@@ -14,6 +14,7 @@
 #include "model/assembly/motion_names.hpp"
 #include "model/modes/constrained_structure.hpp"
 #include "model/modes/stability.hpp"
+#include "model/statics/free_motions.hpp"
 #include "model/statics/mechanisms.hpp"
 #include "model/statics/static_system.hpp"
 #include "study/check/check.hpp"
@@ -172,12 +173,12 @@ std::vector<std::string> free_motions(const Scene& scene, const Model& model,
   for (const statics::FreeMotion& f :
        statics::constrain_free_motions(problem, statics::null_motions(k).topRows(own.size), closed, true)) {
     // A contact without friction follows the motion and does not restrain it.
-    const Contact* holder =
-        f.contact_index < 0 ? nullptr : &model.contacts[static_cast<std::size_t>(f.contact_index)];
-    const bool holds =
-        holder != nullptr && closed[static_cast<std::size_t>(f.contact_index)] && holder->has_friction();
+    std::vector<std::size_t> holders;
+    for (const std::size_t c : f.contacts)
+      if (closed[c] && model.contacts[c].has_friction()) holders.push_back(c);
     names.push_back(assembly::describe_motion(f.motion, map) +
-                    (holds ? fmt::format(", restrained only by friction at contact '{}'", holder->name)
+                    (!holders.empty() ? ", restrained only by friction at " +
+                                            statics::names_of_contacts(model.contacts, holders)
                      : modes::has_negative_energy(k, own.with_points(model, f.motion))
                          ? std::string(", unstable")
                          : std::string(", not restrained")));

@@ -17,7 +17,7 @@ TEST_SUITE("unit/model/build") {
     CHECK(model.alpha == doctest::Approx(17.8182).epsilon(1e-5));
     CHECK(model.omega_max > 4e4);
     CHECK(model.omega_max < 8e4);
-    CHECK(model.statics.free_motions.at(0) == "horizontal motion held at contact 'first'");
+    CHECK(model.statics.free_motions.at(0) == "horizontal motion held at contacts 'first' and 'second'");
     CHECK(model.scales.force == doctest::Approx(100.0));
     CHECK(model.scales.displacement > 1e-5);
     CHECK(model.scales.displacement < 1e-1);

@@ -51,7 +51,7 @@ TEST_SUITE("unit/model/statics/statics") {
       CHECK(model.u0[middle] ==
             doctest::Approx(-sag - 0.5 * reaction * (1.0 / 1e5 + 1.0 / 3e5)).epsilon(1e-8));
       REQUIRE(model.statics.free_motions.size() == 1);
-      CHECK(model.statics.free_motions[0] == "horizontal motion held at contact 'left'");
+      CHECK(model.statics.free_motions[0] == "horizontal motion held at contacts 'left' and 'right'");
       CHECK(std::abs(model.u0[dof(model, "L.ux")]) <= 1e-12);
       CHECK(model.static_start);
     }
@@ -159,7 +159,7 @@ TEST_SUITE("unit/model/statics/statics") {
     const std::string message = refusal(s);
     CHECK(contains(message, "horizontal motion"));
     CHECK(contains(message, "0.32 kN"));
-    CHECK(contains(message, "contact 'left'"));
+    CHECK(contains(message, "only friction at contacts 'left' and 'right' could prevent"));
     s.gravity = {1e-7, -9.81};
     CHECK_FALSE(refusal(s).empty());
   }
@@ -191,7 +191,7 @@ TEST_SUITE("unit/model/statics/statics") {
     s.contacts[0].tangential_stiffness = 1e4;
     const Model model = build_model(s);
     CHECK(model.statics.reactions[0] == 0.0);
-    CHECK(model.statics.free_motions.at(0) == "horizontal motion held at contact 'pad'");
+    CHECK(model.statics.free_motions.at(0) == "horizontal motion held at contacts 'pad', 'left' and 'right'");
     CHECK(std::abs(model.u0[dof(model, "R.ux")]) <= 1e-12);
   }
 

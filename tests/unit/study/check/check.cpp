@@ -38,7 +38,8 @@ TEST_SUITE("unit/study/check/check") {
     CHECK(r.contacts[0].state == State::stick);
     CHECK(r.contacts[0].N == doctest::Approx(-58.86));
     CHECK(r.contacts[1].N == doctest::Approx(-35.316));
-    CHECK(r.free_motions == std::vector<std::string>{"horizontal motion held at contact 'first'"});
+    CHECK(r.free_motions ==
+          std::vector<std::string>{"horizontal motion held at contacts 'first' and 'second'"});
     REQUIRE(r.discontinuities.size() == 2);
     CHECK(r.discontinuities[0].t == 0.0);
     CHECK(r.discontinuities[1].t == doctest::Approx(0.1));

@@ -7,7 +7,9 @@ struct Watch : signorini::Result {
   void event(const signorini::Event& event) override {
     if (event.type == signorini::EventType::slip) std::printf("slip %d at %.6f\n", ++slips, event.t);
   }
-  bool progress(double) override { return slips < 3; }  // asked at every step; false ends the run
+  bool progress(double) override {
+    return slips < 3;
+  }  // asked after every event, row and step; false ends the run
 };
 
 int main() {

@@ -42,8 +42,9 @@ struct HistoryErrors {
   [[nodiscard]] double at(std::size_t row, std::size_t column) const { return bounds[row * width + column]; }
 };
 
-/// Largest possible displacement and force, at the contacts, of the modes that a reduction leaves out
-/// (src/certify/error_bounds.hpp).
+/// Estimated displacement and force, at the contacts, of the modes that a reduction leaves out (src/certify/error_bounds.hpp).
+/// It is that of one loading: slips that follow from it add up over a run, and an event that it shifts may change all later
+/// ones.
 struct Truncation {
   double displacement = 0.0, force = 0.0;
 };
@@ -79,6 +80,8 @@ struct CertifiedReport {
   Report report;
   std::optional<Certificate> certificate;
   std::string reason;  ///< reason why there is no certificate, one sentence
+  /// Present only for a reduced model: neither the run nor its certificate contains the modes that are left out.
+  std::optional<Truncation> reduction;
 };
 
 struct CertifyOptions {

@@ -17,7 +17,7 @@
 // With a shear element (kt and ct in parallel) p is an unknown:
 //   ct (ut' - p') + kt (ut - p) = T,   and p' = 0 in stick
 // A slider has no gap and the normal row N = -normal_force(t); without kt its row in stick is ut'' = 0.
-// A user law may replace all rows and guards: user_contact_law.hpp. The interface of all laws: contact_law.hpp.
+// A user law may replace all rows and guards: user_contact_law.hpp, modified_law.hpp. The interface of all laws: contact_law.hpp.
 // Forces on the body: -N along n, -T along t.
 // Source: Lukashevich et al. 2021, eqs (6)-(11), generalised to slip in both directions.
 #pragma once
@@ -123,6 +123,10 @@ struct Contact {
   /// True if conditions (6) and (7) apply to the contact. The audit and the law checker then check these conditions, and the
   /// contact has only built-in states.
   [[nodiscard]] bool obeys_coulomb() const { return law->capabilities.signorini_coulomb; }
+  /// True if engines that know only Coulomb friction with linear guards can compute the contact.
+  [[nodiscard]] bool has_linear_coulomb_law() const {
+    return law->capabilities.signorini_coulomb && law->capabilities.linear_guards;
+  }
   /// True if N = kn g + cn g' while closed.
   [[nodiscard]] bool is_elastic_along_normal() const {
     return law->capabilities.normal_spring && law->capabilities.signorini_coulomb;

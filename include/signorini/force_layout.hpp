@@ -1,11 +1,15 @@
 // force_layout.hpp: index of a contact's forces in the vector of all forces, and of its guards in that of all guards.
 //
-//   forces   N_1, T_1, N_2, T_2, ...       for each contact in turn: the normal force, then the tangential forces
+//   forces   N_1, T_1, N_2, T_2, ..., 0    for each contact in turn: the normal force, then the tangential forces;
+//                                          at the end the force zero, if a contact has no tangential force
 //   guards   G_11, G_12, ...,  G_21, ...   for each contact in turn: the guards, in the order of the contact's law
 //
 // Residual rows of contacts have the order of the forces. The law of a contact defines its number of tangents and of guards
 // (LawCapabilities); only ForceLayout computes indices from these numbers. A `place` is the index of a force, a `slot` the
 // index of a guard. part() makes the layout of a subset of the contacts.
+//
+// All contacts without a tangential force share the last place as the place of T. Their tangent row is T = 0, so what is read
+// there is zero, and what is written there is zero or the row T = 0 again.
 #pragma once
 
 #include <cstddef>
@@ -34,13 +38,23 @@ class ForceLayout {
     std::uint32_t place = 0, slot = 0;
     for (std::uint32_t c = 0; c < contacts.size(); ++c) {
       const Counts& n = contacts[c];
-      table->starts.push_back({place, n.tangents, slot, n.guards});
+      table->starts.push_back({place, place + 1, n.tangents, slot, n.guards});
       place += 1 + n.tangents + n.unused_forces;
       slot += n.guards + n.unused_guards;
       table->contact_of_place.resize(place, c);
       table->contact_of_guard.resize(slot, c);
     }
-    table->starts.push_back({place, 0, slot, 0});
+    bool any_without_tangent = false;
+    for (Start& start : table->starts)
+      if (start.tangents == 0) {
+        start.tangent = place;
+        any_without_tangent = true;
+      }
+    if (any_without_tangent) {
+      ++place;
+      table->contact_of_place.push_back(static_cast<std::uint32_t>(contacts.size() - 1));
+    }
+    table->starts.push_back({place, place, 0, slot, 0});
     starts_ = table->starts.data();
     contacts_ = contacts.size();
     table_ = std::move(table);
@@ -64,14 +78,14 @@ class ForceLayout {
   [[nodiscard]] std::size_t tangents(std::size_t contact) const { return starts_[contact].tangents; }
   /// Place of the normal force N of a contact.
   [[nodiscard]] std::size_t normal(std::size_t contact) const { return starts_[contact].place; }
-  /// Place of the i-th tangential force of a contact.
+  /// Place of the i-th tangential force of a contact. Without a tangential force: the last place, whose force is zero.
   [[nodiscard]] std::size_t tangent(std::size_t contact, std::size_t i = 0) const {
-    return starts_[contact].place + 1 + i;
+    return starts_[contact].tangent + i;
   }
   /// Contact to which the force at a place belongs.
   [[nodiscard]] std::size_t contact_of(std::size_t place) const { return table_->contact_of_place[place]; }
   [[nodiscard]] bool is_normal(std::size_t place) const { return place == normal(contact_of(place)); }
-  /// False for an unused place after the tangents of a contact.
+  /// False for an unused place after the tangents of a contact, and for the place of the force zero.
   [[nodiscard]] bool is_used(std::size_t place) const {
     const Start& start = starts_[contact_of(place)];
     return place <= start.place + start.tangents;
@@ -96,7 +110,7 @@ class ForceLayout {
 
  private:
   struct Start {
-    std::uint32_t place = 0, tangents = 0, slot = 0, guards = 0;
+    std::uint32_t place = 0, tangent = 0, tangents = 0, slot = 0, guards = 0;
   };
   struct Table {
     std::vector<Start> starts;  // one entry more than contacts: the last one is the end

@@ -114,6 +114,11 @@ struct Form {
   }
 };
 
+/// The two residual rows of a contact: forms that are zero for the motion of the contact.
+struct Rows {
+  Form normal, tangent;
+};
+
 /// The product of two forms; each form includes its constant.
 struct FormProduct {
   Form a, b;

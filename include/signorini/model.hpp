@@ -210,8 +210,8 @@ struct LoadCorrection {
 struct Geometric {
   Prestress forces;
   /// Buckling load factors: the lowest multiples (> 0, ascending) of these forces at which the structure, with the contacts
-  /// of the start, loses its stiffness against some motion. A factor <= 1: the structure is unstable. Empty: none exists, or
-  /// none was requested.
+  /// of the start, loses its stiffness against some motion. A factor <= 1: the structure is unstable. If no multiple > 0 exists,
+  /// as in tension, the multiples < 0 nearest to zero, which act against these forces. Empty: none exists, or none was requested.
   std::vector<double> load_factors;
 };
 
@@ -242,6 +242,9 @@ struct Model {
   /// Contact states at the end of the run that this run continues, one per contact. Empty: this run continues
   /// no run of the same structure, or that run recorded no contacts.
   std::vector<SavedState::FinalContact> saved_contacts;
+  /// Time of the state with which this run continues another one, in that run. Its resolution is that of the first instant,
+  /// because the state may be that of an event. 0: this run continues none.
+  double saved_time = 0.0;
   Scales scales;
   double alpha = 0.0, beta = 0.0;  ///< factors of the Rayleigh damping alpha M + beta K in `damping`
   double omega1 = 0.0;     ///< lowest circular frequency, with the initially closed contacts closed; 0: none

@@ -145,7 +145,8 @@ class Recorder {
   /// Called with the current state at the start, at the end of every engine step, and after every event and breakpoint. A
   /// change by `run` acts from then on, like a jump of a load. Return false to end the run.
   virtual bool steer(const Sample& /*now*/, Steering& /*run*/) { return true; }
-  /// Called often with the current time; return false to interrupt the run.
+  /// Called with the current time before and after each instant, after each row and at the end of each step; return false to
+  /// interrupt the run. It then ends at this time, and records no later row.
   virtual bool progress(double /*t*/) { return true; }
 };
 
@@ -175,11 +176,22 @@ struct Audit {
   Extreme energy;       ///< |balance(t) - balance(0)|
   /// Sum of reactions minus loads and inertia, force; only if a reaction output is requested.
   std::optional<Extreme> reactions;
+  /// Number of contacts that rest at their friction limit within rounding error, and the largest | |T| - T_U | of them, force.
+  long contacts_at_limit = 0;
+  Extreme at_limit;
   double length_scale = 1.0, force_scale = 1.0, power_scale = 1.0, energy_scale = 1.0;
   long impulses_on_closed = 0;        ///< number of impulses on contacts that were closed
   double work_of_loads = 0.0;         ///< largest |W_loads(t)|
   std::vector<double> friction_work;  ///< dissipation of each contact
   Energy initial, final;
+
+  /// Energy to which errors of energies are relative: the exchanged energy, or force_scale * length_scale if the structure is
+  /// at rest, so that the exchanged energy is only rounding.
+  [[nodiscard]] double energy_reference() const {
+    constexpr double least_exchange = 1e-9;  // fraction of force_scale * length_scale; chosen value
+    const double of_scales = force_scale * length_scale;
+    return energy_scale > least_exchange * of_scales ? energy_scale : of_scales;
+  }
 };
 
 struct Counters {

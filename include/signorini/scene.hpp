@@ -342,6 +342,7 @@ struct Spring {
   double rotation_stiffness = 0.0, rotation_damping = 0.0;  ///< moment per rad, and per rad per time
   double preload = 0.0;                                     ///< force in the undeformed structure
   std::optional<double> hot_load = {};                      ///< designed hot load of a spring hanger
+  bool restoring = false;  ///< restoring spring N / R of a pendulum, which damping beta K does not include
 };
 
 struct Support {
@@ -420,16 +421,15 @@ struct ContactSpec {
   std::optional<CurvedSurface> pendulum_surface = {};
   std::string table = {};  ///< scene table, "contacts.first", "stops.guide"; empty: contacts.NAME
   bool of_stop = false;
-  /// User law that replaces the rows, guards and transitions of `compliant`: from law = "yielding", or made in code.
-  std::shared_ptr<const UserContactLaw> user_law = {};
+  /// User law, from law = "yielding" or made in code: data (user_contact_law.hpp) or a class (contact_law.hpp). It replaces the
+  /// rows, guards and transitions of `law`, and determines N in the same way: by a spring, by an impulse, or N is given.
+  std::optional<ContactLawPtr> user_law = {};
   /// See ForceLayout::Counts; results do not depend on these numbers.
   std::uint32_t unused_forces = 0, unused_guards = 0;
 
-  /// Capabilities of the law named in the scene. A user law is named `compliant`.
+  /// Capabilities of `law`.
   [[nodiscard]] LawCapabilities capabilities() const { return capabilities_of(law); }
-  [[nodiscard]] ContactLawPtr contact_law() const {
-    return user_law ? ContactLawPtr(user_law) : ContactLawPtr(law);
-  }
+  [[nodiscard]] ContactLawPtr contact_law() const { return user_law.value_or(law); }
   /// Direction along which N acts; nullptr if the scene gives N itself, or no direction.
   [[nodiscard]] const Direction* bearing_normal() const {
     return normal && !capabilities().normal_force_given ? &*normal : nullptr;

@@ -7,15 +7,16 @@
 //
 // Rows and guards are linear forms (form.hpp) with an additional coefficient for the memory p. p is a length, such as the
 // anchor of friction or the dent of crushed material. Every normal row must contain N, every tangent row T; forms on
-// accelerations are refused.
+// accelerations are refused. With normal_force_given, the law is that of a slider: every normal row is N + q = 0, and the other
+// forms may depend on q = normal_force(t) and q'.
 //
 //   auto pad = std::make_shared<UserContactLaw>();         a pad that yields at -Y (src/contact/law/yielding_pad.cpp)
 //   pad->states = {{"off", State::open, {{.N = 1}}, {{.T = 1}}, {{{{.gap = 1}, -1}, 1}}},
 //                  {"on", State::closed, ...}};
 //   scene.contacts[0].user_law = pad;
 //
-// The contact also has the properties of `compliant`. Its normal_stiffness must have the magnitude of the law's stiffness,
-// because tolerances, scales and frequencies depend on it. A run starts in state 0 with p = 0, or in the state given by
+// The contact also has the properties of `compliant`, or of `slider` with normal_force_given. Its normal_stiffness must have the
+// magnitude of the law's stiffness, because tolerances, scales and frequencies depend on it. A run starts in state 0 with p = 0, or in the state given by
 // last_state(). If guards are violated in this state, the state changes at once until all guards are positive, as at
 // every instant. A static start supports built-in laws only.
 // Energy: all work done on such a contact, stored or dissipated, is reported as its friction work. Conditions (6) and (7) do
@@ -53,9 +54,10 @@ struct UserLawState {
 };
 
 struct UserContactLaw {
-  /// Name in the output of `check`, in messages and in summary.json; empty: "compliant".
+  /// Name in the output of `check`, in messages and in summary.json; empty: "compliant" or "slider".
   std::string name = {};
   std::vector<UserLawState> states;  ///< at most max_user_law_states; a run begins in the first one
+  bool normal_force_given = false;   ///< true: the law of a slider
 };
 
 }  // namespace signorini

@@ -93,8 +93,10 @@ Projection projected(const std::vector<ConvexSet>& sets, const VectorXd& z) {
   Projection all{VectorXd(z.size()), MatrixXd::Zero(z.size(), z.size())};
   Index at = 0;
   for (const ConvexSet& set : sets) {
-    const VectorXd part = z.segment(at, set.size);
-    const Projection p = onto(set, part);
+    VectorXd part = z.segment(at, set.size);
+    if (set.offset.size() > 0) part -= set.offset;
+    Projection p = onto(set, part);
+    if (set.offset.size() > 0) p.x += set.offset;
     all.x.segment(at, set.size) = p.x;
     all.derivative.block(at, at, set.size, set.size) = p.derivative;
     at += set.size;
@@ -105,10 +107,6 @@ Projection projected(const std::vector<ConvexSet>& sets, const VectorXd& z) {
 double dual(const VectorXd& r, const VectorXd& y, const VectorXd& z, const VectorXd& x) {
   return r.dot(y) - z.dot(x) + 0.5 * x.squaredNorm();
 }
-
-}  // namespace
-
-namespace {
 
 ConvexSet critical_cone_of_cone(const ConvexSet& set, const VectorXd& z, double zero) {
   const double f = set.friction, t = z.size() > 1 ? z[1] : 0.0, side = t < 0.0 ? -1.0 : 1.0;
@@ -138,7 +136,10 @@ ConvexSet critical_cone_of_half(const ConvexSet& set, const VectorXd& z, double 
 
 }  // namespace
 
-ConvexSet critical_cone(const ConvexSet& set, const VectorXd& z, double zero) {
+ConvexSet critical_cone(const ConvexSet& moved, const VectorXd& of_moved, double zero) {
+  const VectorXd z = moved.offset.size() > 0 ? VectorXd(of_moved - moved.offset) : of_moved;
+  ConvexSet set = moved;
+  set.offset = {};
   const ConvexSet whole{Kind::whole, set.size, 0.0, 0.0, {}}, origin{Kind::origin, set.size, 0.0, 0.0, {}};
   switch (set.kind) {
     case Kind::cone:

@@ -36,10 +36,13 @@ struct ConvexSet {
   double friction = 0.0;  ///< cone: f >= 0
   double radius = 0.0;    ///< disc: F >= 0
   Eigen::VectorXd direction;  ///< ray, line, half-space: e
+  /// Vector by which the set is moved; empty: not moved. A face that moves with time, such as the limit F(t) of a disc,
+  /// moves its critical cone by its rate.
+  Eigen::VectorXd offset = {};
 };
 
 /// Set within which the projection moves if its argument z begins to move. Distances up to `zero` from a face count as zero.
-/// Only for a cone or disc with at most one tangent.
+/// The result has no offset. Only for a cone or disc with at most one tangent.
 [[nodiscard]] ConvexSet critical_cone(const ConvexSet& set, const Eigen::VectorXd& z, double zero);
 
 /// The minimum x, and its multipliers A' y: x = P(multipliers).

@@ -97,6 +97,31 @@ bool is_plain_text(std::string_view text) {
   return is_utf8(text);
 }
 
+std::string printable(std::string_view text) {
+  constexpr unsigned first_byte_of_c1 = 0xc2, first_c1 = 0x80, last_c1 = 0x9f, del = 0x7f, blank = 0x20;
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const auto continues = [&](std::size_t i) { return i < text.size() && (byte(i) & 0xc0U) == 0x80U; };
+  std::string result;
+  result.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const unsigned c = byte(i);
+    const bool is_c1 = c == first_byte_of_c1 && continues(i + 1) && byte(i + 1) <= last_c1;
+    const bool is_lone_c1 = c >= first_c1 && c <= last_c1;
+    if (is_c1) {
+      result += fmt::format("\\u{:04x}", byte(++i));
+    } else if ((c < blank && c != '\t' && c != '\n') || c == del || is_lone_c1) {
+      result += fmt::format("\\u{:04x}", c);
+    } else {
+      result += text[i];
+      if (c > first_byte_of_c1)  // the continuation bytes of a longer character
+        for (; continues(i + 1); ++i) result += text[i + 1];
+      else if (c == first_byte_of_c1 && continues(i + 1))
+        result += text[++i];
+    }
+  }
+  return result;
+}
+
 void Fingerprint::add(std::string_view part) {
   std::uint64_t hash = hash_;  // local copy: a member would be written to memory after every byte
   for (const char c : part) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;

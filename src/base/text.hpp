@@ -53,6 +53,11 @@ namespace signorini::base {
 /// True for UTF-8 text whose only control characters are tabs and line breaks.
 [[nodiscard]] bool is_plain_text(std::string_view text);
 
+/// The text without characters that a terminal obeys: ESC, BEL, DEL and all other control characters of ASCII and of U+0080 to
+/// U+009F, except tabs and line breaks, become "\u001b". Bytes that are not UTF-8 are treated as characters of Latin-1. The
+/// result is unchanged if the function is applied to it again, and JSON stays JSON.
+[[nodiscard]] std::string printable(std::string_view text);
+
 // Fingerprint: a short text computed from all bytes of a long text, equal on every machine.
 //
 //   FNV-1a of 64 bits:   h = 14695981039346656037,  for each byte  h = (h xor byte) 1099511628211 mod 2^64

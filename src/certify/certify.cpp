@@ -34,6 +34,8 @@ constexpr double cheap = 0.5;
 /// A companion that was not requested ends after `patience` times the expected number of steps, but not before
 /// least_steps, since the expected number does not include events.
 constexpr double patience = 20.0, least_steps = 1e5;
+/// A companion that takes no longer than this always runs to its end. Unit: seconds.
+constexpr double free_seconds = 0.5;
 constexpr std::chrono::milliseconds progress_interval{50};
 
 /// A thread with all signals blocked, so that the calling thread receives all signals.
@@ -212,6 +214,15 @@ bool costs_little_to_certify(const certify::CompanionPlan& plan) {
   return plan.cost > 0.0 && plan.cost < cheap;
 }
 
+/// True if companions are expected to take more than free_seconds and longer than the run has taken. Before the run, the number
+/// of its steps is an upper estimate: `ida` takes few steps while the highest modes are at rest. The time of the run is computed
+/// from its number of steps, not from the clock, so that the same scene is certified on every machine.
+bool costs_more_than_the_run(const RunSpec& run, const certify::CompanionPlan& plan, const Report& report) {
+  if (plan.runs.front().run.engine == run.engine || !(plan.run_steps > 0.0)) return false;
+  const double taken = plan.run_seconds * static_cast<double>(report.counters.steps) / plan.run_steps;
+  return plan.seconds > std::max(free_seconds, taken);
+}
+
 /// Reason why the run is not certified. If run and companion use the same engine, the message gives their cost ratio. For
 /// different engines this ratio is not known well, so the message gives durations; the estimate includes the restarts
 /// that the run has counted.
@@ -273,7 +284,6 @@ Certificate certificate_of(const Model& model, const RunSpec& run, const certify
   result.t_errors = std::move(verdict.t_errors);
   result.unordered = verdict.unordered;
   certify::bound_extremes(result, kept_run, kept, settings);
-  if (model.reduction) result.reduction = certify::truncation_of(model, *model.reduction, report.peaks);
   return result;
 }
 
@@ -284,8 +294,11 @@ std::size_t Certificate::certain_events() const {
       std::count_if(t_errors.begin(), t_errors.end(), [](double e) { return !std::isnan(e); }));
 }
 
-CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, Recorder& recorder,
-                                   const CertifyOptions& options) {
+namespace {
+
+/// simulate_certified() without CertifiedReport::reduction.
+CertifiedReport certified_run(const Model& model, const RunSpec& settings, Recorder& recorder,
+                              const CertifyOptions& options) {
   using Clock = std::chrono::steady_clock;
   CertifiedReport result;
   const auto plain = [&] { result.report = simulate(model, settings, recorder, options.listener); };
@@ -316,11 +329,26 @@ CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, 
   Companions companions(std::move(plan.runs), most_steps, options.forces);
   companions.begin();
   result.report = simulate(model, settings, own, options.listener);
+  if (run.certify != Certify::yes && costs_more_than_the_run(run, plan, result.report)) {
+    result.reason = why_not(model, run, plan, result.report);
+    return result;
+  }
   const Outcome& outcome = result.report.outcome;
   const auto ended = Clock::now();
   companions.finish(outcome.t, outcome.kind == Outcome::Kind::interrupted, options.go_on);
   result.certificate = certificate_of(model, run, plan, companions, own, result.report);
   result.certificate->wait = std::chrono::duration<double>(Clock::now() - ended).count();
+  return result;
+}
+
+}  // namespace
+
+CertifiedReport simulate_certified(const Model& model, const RunSpec& settings, Recorder& recorder,
+                                   const CertifyOptions& options) {
+  CertifiedReport result = certified_run(model, settings, recorder, options);
+  if (model.reduction)
+    result.reduction = certify::truncation_of(model, *model.reduction, result.report.peaks);
+  if (result.certificate) result.certificate->reduction = result.reduction;
   return result;
 }
 

@@ -103,6 +103,8 @@ CompanionPlan finer_plan(const Model& model, const RunSpec& run) {
 
 void estimate(CompanionPlan& plan, const Model& model, const RunSpec& run) {
   const run::CostEstimate own = run::expected_cost(model, run).estimate;
+  plan.run_seconds = own.seconds;
+  plan.run_steps = own.steps;
   for (const CompanionRun& companion : plan.runs) {
     const run::CostEstimate effort = run::expected_cost(companion.model, companion.run).estimate;
     plan.steps = effort.steps;

@@ -64,6 +64,8 @@ struct CompanionPlan {
   double cost = 0.0;     ///< expected cost of the companions / cost of the run; 0: unknown
   double seconds = 0.0;  ///< expected duration of the companions
   double steps = 0.0;    ///< expected number of steps of one companion; 0: unknown
+  double run_seconds = 0.0,
+         run_steps = 0.0;  ///< expected duration and number of steps of the run; 0: unknown
 };
 
 /// Sets the capture velocity of all contacts of `model` for which the scene gives none.

@@ -222,6 +222,10 @@ std::string load_factor_lines(const check::CheckReport& report) {
   std::string text = "buckling load factors (factors of the static loads; contacts as at the start): ";
   if (factors.empty()) return text + "none: no multiple of the static loads causes buckling\n\n";
   for (std::size_t i = 0; i < factors.size(); ++i) text += (i == 0 ? "" : ", ") + number(factors[i]);
+  if (factors.front() < 0.0)
+    return text +
+           "; all are negative: no multiple of the static loads causes buckling, only loads of the other "
+           "sign do\n\n";
   return text + (factors.front() > 1.0
                      ? "\n\n"
                      : "; a factor up to 1: the structure is unstable under its static loads\n\n");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
 
@@ -143,6 +144,11 @@ int main(int argc, char** argv) {
   } catch (const Error& error) {
     cli::print_error(error.what());
     return static_cast<int>(error.code());
+  } catch (
+      const std::filesystem::filesystem_error& error) {  // the current directory was deleted, for example
+    cli::print_error(error.path1().string() + (error.path1().empty() ? "the current directory: " : ": ") +
+                     error.code().message());
+    return static_cast<int>(ExitCode::file);
   } catch (const std::bad_alloc&) {
     cli::print_error("out of memory");
   } catch (const std::exception& error) {

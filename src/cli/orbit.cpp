@@ -60,16 +60,16 @@ class CheckpointWriter {
                    std::size_t before)
       : path_(path), read_(read), over_(over), before_(before) {}
 
-  void see(const std::function<BranchCheckpoint()>& mark) {
+  void write_if_due(const std::function<BranchCheckpoint()>& make) {
     const auto begin = Clock::now();
     if (written_ && begin - *written_ < checkpoint_interval_factor * took_) return;
-    write(mark());
+    write(make());
     written_ = Clock::now();
     took_ = *written_ - begin;
   }
-  void write(BranchCheckpoint mark) const {
-    mark.point_count += before_;
-    orbit_study::write_checkpoint(path_, read_, over_, mark);
+  void write(BranchCheckpoint checkpoint) const {
+    checkpoint.point_count += before_;
+    orbit_study::write_checkpoint(path_, read_, over_, checkpoint);
   }
 
  private:
@@ -139,14 +139,16 @@ ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptio
     orbit_study::remove_checkpoint(path);
   }
   orbit_study::BranchWriter writer(path, outputs);
-  Interrupt interrupt;
+  std::optional<Interrupt> interrupt(std::in_place);
   BranchWatch watch;
   for (const BranchPoint& point : before) writer.add(point);
-  CheckpointWriter marks(path, read, over, before.size());
-  over.on_checkpoint = [&marks](const std::function<BranchCheckpoint()>& mark) { marks.see(mark); };
+  CheckpointWriter checkpoints(path, read, over, before.size());
+  over.on_checkpoint = [&checkpoints](const std::function<BranchCheckpoint()>& make) {
+    checkpoints.write_if_due(make);
+  };
   Branch branch = continue_branch(read, over, &watch, [&](const BranchPoint& point) { writer.add(point); });
   branch.points.insert(branch.points.begin(), before.begin(), before.end());
-  if (branch.last && !branch.complete) marks.write(*branch.last);
+  if (branch.last && !branch.complete) checkpoints.write(*branch.last);
   const std::string json = orbit_study::branch_json(over, first.units, branch);
   result::write_file(path / "branch.json", json);
   std::vector<std::string> labels;
@@ -164,13 +166,14 @@ ExitCode run_over(const std::string& scene, const SceneReader& read, BranchOptio
     print(branch_table(over, branch) +
           fmt::format("\n{} points: {}\nresults: {}/ (branch.csv, branch.json)\n", branch.points.size(),
                       branch.end, path.string()));
-  const std::string drawn =
-      scripts.empty() ? "" : draw_pictures(path, scripts, " (gnuplot, once installed, draws them)");
-  if (options.tables()) print(drawn);
+  interrupt.reset();  // everything is kept: from here on, while pictures are drawn, a signal ends the program
   if (Interrupt::requested()) {
     print_error("interrupted; the points up to here are kept in " + path.string());
     return ExitCode::interrupted;
   }
+  const std::string drawn =
+      scripts.empty() ? "" : draw_pictures(path, scripts, " (gnuplot, once installed, draws them)");
+  if (options.tables()) print(drawn);
   if (!branch.complete) print_error("the branch ends early: " + branch.end);
   return branch.complete ? ExitCode::done : ExitCode::stopped;
 }
@@ -303,7 +306,7 @@ ExitCode run(const OrbitCommand& options, const std::vector<std::string>& comman
   result::check_run_directory(path, options.force);
   const SceneReader read = reader_of(options.scene, changes);
   if (!options.quiet) print_patterns(options.scene, options.settings);
-  Interrupt interrupt;
+  std::optional<Interrupt> interrupt(std::in_place);
   SearchWatch watch;
   const Orbit orbit = find_orbit(read, options.search, &watch);
   if (!orbit.found) return not_found(options, orbit);
@@ -317,6 +320,11 @@ ExitCode run(const OrbitCommand& options, const std::vector<std::string>& comman
   print_warnings(options, certified.report.warnings);
   if (options.json) print(orbit_study::orbit_json(model, orbit));
   if (options.tables()) print(text_of(scene, model, orbit, path));
+  interrupt.reset();  // everything is kept: from here on, while pictures are drawn, a signal ends the program
+  if (Interrupt::requested()) {
+    print_error("interrupted; the orbit and its run are kept in " + path.string());
+    return ExitCode::interrupted;
+  }
   const bool done = certified.report.outcome.kind == Outcome::Kind::done;
   std::vector<fs::path> scripts;
   if (!options.no_plots && done) {

@@ -49,7 +49,7 @@ constexpr std::size_t max_output = 1 << 16;
 // Limit of the number of pictures of contacts, each of which takes about 0.17 s.
 constexpr std::size_t max_contact_pictures = 24;
 
-struct Ended {
+struct ExitStatus {
   int code = 0;
   std::string output;
 };
@@ -94,7 +94,7 @@ std::optional<int> wait_for(pid_t child, Clock::time_point last) {
   }
 }
 
-Ended run_gnuplot(const std::filesystem::path& script) {
+ExitStatus run_gnuplot(const std::filesystem::path& script) {
   const std::string folder = script.parent_path().string(), name = script.filename().string();
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) return {exit_not_started, "cannot create a pipe"};
@@ -139,11 +139,11 @@ Drawing draw(const std::vector<std::filesystem::path>& scripts) {
   Drawing drawing;
   std::size_t failed = 0;
   for (const auto& script : scripts) {
-    const Ended ended = run_gnuplot(script);
-    if (ended.code == no_program) return {Drawing::Kind::no_gnuplot, ""};
-    if (ended.code == 0) continue;
-    if (failed++ == 0) drawing = {Drawing::Kind::failed, script.string() + ": " + ended.output};
-    if (ended.code == exit_stopped)
+    const ExitStatus status = run_gnuplot(script);
+    if (status.code == no_program) return {Drawing::Kind::no_gnuplot, ""};
+    if (status.code == 0) continue;
+    if (failed++ == 0) drawing = {Drawing::Kind::failed, script.string() + ": " + status.output};
+    if (status.code == exit_stopped)
       return drawing;  // gnuplot itself hangs, so the other pictures would hang as well
   }
   if (failed > 1)

@@ -13,7 +13,7 @@
 #include "cli/command.hpp"
 #include "cli/terminal.hpp"
 #include "result/csv.hpp"
-#include "scene/data_file.hpp"
+#include "scene/record_header.hpp"
 #include "study/quake/quake.hpp"
 #include "study/quake/spectra.hpp"
 

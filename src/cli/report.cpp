@@ -31,8 +31,15 @@ std::string check_of(const Scene& scene) {
   }
 }
 
+/// Errors: FileError if the path is a pipe, a device or a folder, which the finished file would replace.
+void check_regular(const fs::path& file) {
+  if (const std::string why = base::input_file_error(file); !why.empty())
+    throw FileError(file.string(), why + ", expected a file or a new name");
+}
+
 /// Checks that the page may be written. Errors: FileError if a file with this name exists that this command did not write.
 void check_page(const fs::path& page) {
+  check_regular(page);
   base::check_output_file(page, "page of Signorini", "<meta name=\"generator\" content=\"Signorini");
 }
 
@@ -63,6 +70,7 @@ ExitCode report_cases(const std::vector<std::string>& directories, const fs::pat
   if (table == page)
     throw UsageError(page.string() + ": is also the name of the CSV table; expected FILE.html");
   check_page(page);
+  check_regular(table);
   base::check_output_file(table, "table of load cases", "item,quantity,unit");
   result::write_file(page, report::load_cases_page(cases));
   result::write_file(table, report::load_cases_csv(cases));

@@ -62,15 +62,6 @@ std::string stacked(const std::vector<std::string>& tables) {
   return text;
 }
 
-/// Line about the cutoff frequency found for [reduction] tolerance; empty if no cutoff was searched.
-std::string reduction_line(const Model& model) {
-  if (!model.reduction || model.reduction->trials.empty()) return "";
-  const CutoffTrial& last = model.reduction->trials.back();
-  return fmt::format(
-      "reduction: {} modes, up to {:.4g} rad/{}, error {:.2g} of the greatest displacement ({} trials)\n",
-      last.modes, last.cutoff_omega, model.units.time, last.error, model.reduction->trials.size());
-}
-
 /// Text that a run prints at its end. events: table of events; pictures: the run has written data for pictures.
 std::string certificate_text(const Scene& scene, const Model& model, const CertifiedReport& certified,
                              const std::string& events, const fs::path& path, bool pictures) {
@@ -83,7 +74,8 @@ std::string certificate_text(const Scene& scene, const Model& model, const Certi
   if (!frames.empty() && !scene.seams.empty()) frames += "frame_seams.csv, ";
   const std::string response = model.outputs.empty() ? "" : "response.csv, ";
   return (scene.title.empty() ? "" : scene.title + "\n\n") + tables + certification_text(model, certified) +
-         reduction_line(model) + "results: " + path.string() + "/ (events.csv, history.csv, " + response +
+         reduction_text(model, certified) + "results: " + path.string() + "/ (events.csv, history.csv, " +
+         response +
          (pictures ? "contacts.csv, motion.csv, energy.csv, curves.csv, " : "contacts.csv, energy.csv, ") +
          (pictures && !scene.bodies.empty() ? "body_motion.csv, " : "") + frames +
          "summary.json, run.toml)\n";

@@ -84,17 +84,23 @@ std::string events_by_type(const Report& report) {
   return text.empty() ? "none" : text;
 }
 
-// If the exchanged energy is below this fraction of (force scale) * (length scale), it is rounding, and the relative
-// error of the balance has no meaning.
-constexpr double moved = 1e-9;
-
 void add_extreme(Table& table, const Model& model, const char* what, const Extreme& extreme, double scale,
-                 const std::string& unit, bool comparable = true) {
+                 const std::string& unit) {
   const double relative = scale > 0.0 ? extreme.value / scale : 0.0;
   const std::string contact = name_of(model, extreme.contact);
   const std::string where = fmt::format("t = {:.6g}{}", extreme.t, contact.empty() ? "" : ", " + contact);
-  table.row({what, comparable ? fmt::format("{:.2g}", relative) : "-",
-             fmt::format("{:.2g} {}", extreme.value, unit), extreme.value == 0.0 ? "" : where});
+  table.row({what, fmt::format("{:.2g}", relative), fmt::format("{:.2g} {}", extreme.value, unit),
+             extreme.value == 0.0 ? "" : where});
+}
+
+/// Row for contacts that rest at their friction limit; none if there are no such contacts.
+void add_contacts_at_limit(Table& table, const Model& model, const Audit& a) {
+  if (a.contacts_at_limit == 0) return;
+  const Extreme& off = a.at_limit;
+  table.row({fmt::format("at rest at |T| = T_U: {}", base::count_text(a.contacts_at_limit, "contact")),
+             fmt::format("{:.2g}", a.force_scale > 0.0 ? off.value / a.force_scale : 0.0),
+             fmt::format("{:.2g} {}", off.value, model.units.force),
+             fmt::format("t = {:.6g}, {}", off.t, name_of(model, off.contact))});
 }
 
 std::string method_of(const Method& method) {
@@ -240,7 +246,7 @@ std::string audit_table(const Model& model, const Audit& a, TableStyle style) {
   Table table({"audit: greatest violation", "relative", "value", "where"}, {false, true, true, false});
   add_extreme(table, model, "gap g < 0", a.gap, a.length_scale, length);
   add_extreme(table, model, "tension N > 0", a.tension, a.force_scale, force);
-  add_extreme(table, model, "complementarity |g N|", a.product, a.energy_scale, energy);
+  add_extreme(table, model, "complementarity |g N|", a.product, a.energy_reference(), energy);
   if (std::any_of(model.contacts.begin(), model.contacts.end(),
                   [](const Contact& c) { return c.takes_impulses(); }))
     add_extreme(table, model, "penetration", a.penetration, a.length_scale, length);
@@ -249,8 +255,8 @@ std::string audit_table(const Model& model, const Audit& a, TableStyle style) {
               energy + "/" + model.units.time);
   add_extreme(table, model, "equilibrium", a.equilibrium, a.force_scale, force);
   if (a.reactions) add_extreme(table, model, "sum of reactions", *a.reactions, a.force_scale, force);
-  add_extreme(table, model, "energy balance", a.energy, a.energy_scale, energy,
-              a.energy_scale > moved * a.force_scale * a.length_scale);
+  add_extreme(table, model, "energy balance", a.energy, a.energy_reference(), energy);
+  add_contacts_at_limit(table, model, a);
   return table.str(style);
 }
 
@@ -293,6 +299,22 @@ std::string run_summary(const RunSpec& run, const Model& model, const Report& re
   return text;
 }
 
+std::string reduction_text(const Model& model, const CertifiedReport& run) {
+  if (!model.reduction) return "";
+  const Reduction& r = *model.reduction;
+  std::string text = fmt::format("reduction: {} modes, up to {:.4g} rad/{}, {} left out", r.modes, r.cutoff,
+                                 model.units.time, r.truncated_modes);
+  if (!r.trials.empty())
+    text += fmt::format(", error {:.2g} of the greatest displacement ({} trials)", r.trials.back().error,
+                        r.trials.size());
+  if (!run.reduction || model.contacts.empty() || r.truncated_modes == 0) return text + "\n";
+  return text +
+         fmt::format(
+             "; they would change displacements at contacts by about {:.2g} {}\n  in one loading, and slips "
+             "add up: a run with a higher cutoff shows what they change\n",
+             run.reduction->displacement, model.units.length);
+}
+
 std::string certification_text(const Model& model, const CertifiedReport& run) {
   if (!run.certificate) return run.reason.empty() ? "" : "not certified: " + run.reason + "\n";
   const Certificate& c = *run.certificate;
@@ -301,10 +323,12 @@ std::string certification_text(const Model& model, const CertifiedReport& run) {
     if (c.certain(i)) greatest = std::max(greatest, c.t_errors[i]);
   const std::string beside =
       fmt::format("companion: {}, {:.2f} s, waited {:.2f} s", c.companion, c.wall_time, c.wait);
+  const bool reduced = model.reduction && model.reduction->truncated_modes > 0;
+  const std::string what = reduced ? "reduced model certified" : "certified";
   const std::string to_end =
       run.report.outcome.kind == Outcome::Kind::done
-          ? "certified to the end"
-          : fmt::format("certified to t = {:.9g} {}, where the run ended", c.until, model.units.time);
+          ? what + " to the end"
+          : fmt::format("{} to t = {:.9g} {}, where the run ended", what, c.until, model.units.time);
   if (c.complete && c.t_errors.empty()) return fmt::format("{}: no event ({})\n", to_end, beside);
   // Without certified events there are no error bounds of times.
   const std::string times =
@@ -312,7 +336,7 @@ std::string certification_text(const Model& model, const CertifiedReport& run) {
   std::string text =
       c.complete
           ? fmt::format("{}: all {} events{} ({})\n", to_end, c.t_errors.size(), times, beside)
-          : fmt::format("certified until t = {:.9g} {}: {} of {} events{} ({}); reason: {}\n", c.until,
+          : fmt::format("{} until t = {:.9g} {}: {} of {} events{} ({}); reason: {}\n", what, c.until,
                         model.units.time, c.certain_events(), c.t_errors.size(), times, beside, c.reason);
   if (c.unordered > 0)
     text += fmt::format("the order of {} of neighbouring events of different contacts is not certified\n",

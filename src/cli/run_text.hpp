@@ -38,6 +38,9 @@ namespace signorini::cli {
 /// Outcome, events by type, audit, energy balance, effort.
 [[nodiscard]] std::string run_summary(const RunSpec& run, const Model& model, const Report& report);
 
+/// Text about the modes that a reduced model leaves out, and their estimated effect at contacts; "" without a reduction.
+[[nodiscard]] std::string reduction_text(const Model& model, const CertifiedReport& run);
+
 /// Text about the time up to which the sequence of events is certified, or the reason why it is not certified.
 [[nodiscard]] std::string certification_text(const Model& model, const CertifiedReport& run);
 

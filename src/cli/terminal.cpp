@@ -10,6 +10,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/text.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini::cli {
@@ -22,12 +23,13 @@ bool colour() {
 
 void message(const char* escape, const char* word, const std::string& text) {
   const std::string head = colour() ? std::string(escape) + word + "\x1b[0m" : std::string(word);
-  std::fprintf(stderr, "%s: %s\n", head.c_str(), text.c_str());
+  std::fprintf(stderr, "%s: %s\n", head.c_str(), base::printable(text).c_str());
 }
 
 }  // namespace
 
-void print(const std::string& text) {
+void print(const std::string& raw) {
+  const std::string text = base::printable(raw);
   errno = 0;
   if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
   const int error = errno == 0 ? EIO : errno;
@@ -43,12 +45,15 @@ void print_note(const std::string& text) { message("\x1b[1m", "note", text); }
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
 void open_closed_streams() {
-  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
-    if (fcntl(stream, F_GETFD) < 0 && errno == EBADF && open("/dev/null", O_RDWR) != stream) std::abort();
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+    // Standard output cannot be written then, so that print() reports the loss. Messages have no other place to go.
+    const int access = stream == STDOUT_FILENO ? O_RDONLY : O_RDWR;
+    if (fcntl(stream, F_GETFD) < 0 && errno == EBADF && open("/dev/null", access) != stream) std::abort();
+  }
 }
 
 void progress_line(const std::string& text) {
-  std::fprintf(stderr, "\r\x1b[K%s", text.c_str());
+  std::fprintf(stderr, "\r\x1b[K%s", base::printable(text).c_str());
   std::fflush(stderr);
 }
 
@@ -105,7 +110,10 @@ Table::Table(std::vector<std::string> header, std::vector<bool> right) : right_(
   rows_.push_back(std::move(header));
 }
 
-void Table::row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+void Table::row(std::vector<std::string> cells) {
+  for (std::string& cell : cells) cell = base::printable(cell);  // before its width is measured
+  rows_.push_back(std::move(cells));
+}
 
 void Table::line(std::string text) { rows_.push_back({std::move(text)}); }
 

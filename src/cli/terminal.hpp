@@ -1,5 +1,6 @@
 // terminal.hpp: output streams and tables. Data go to stdout, messages and progress to stderr.
 //
+// Control characters in titles, names and paths are printed as "\u001b", so that a scene cannot command the terminal.
 // Messages are coloured only on a terminal, and not if NO_COLOR is set (https://no-color.org).
 #pragma once
 
@@ -19,7 +20,7 @@ void print_note(const std::string& message);
 /// True if stderr is a terminal, so that a progress line can be shown.
 [[nodiscard]] bool stderr_is_terminal();
 /// Opens /dev/null in place of a closed standard input, output or error. Otherwise the next opened file would get this
-/// descriptor, and printed text would be written to this file.
+/// descriptor, and printed text would be written to this file. print() then fails, because the output would be lost.
 void open_closed_streams();
 
 /// Replaces the progress line; an empty text removes it.

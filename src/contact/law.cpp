@@ -42,6 +42,8 @@ const char* to_string(Guard guard) {
       return "friction limit (+)";
     case Guard::slip_minus:
       return "friction limit (-)";
+    case Guard::friction_limit:
+      return "friction limit";
     case Guard::sliding:
       return "slip rate";
     case Guard::user_1:
@@ -66,16 +68,11 @@ const char* to_string(Law law) {
   return "?";
 }
 
-}  // namespace signorini::contact
-
-namespace signorini {}  // namespace signorini
-
-namespace signorini::contact {
-
 Unit unit_of(const Form& form) {
   if (form.N != 0.0 || form.T != 0.0 || form.applied_normal_force != 0.0) return unit::force;
   if (form.gap != 0.0 || form.ut != 0.0) return unit::length;
   if (form.vn != 0.0 || form.vt != 0.0) return unit::velocity;
+  if (form.applied_normal_force_rate != 0.0) return {1, 0, -1};
   return unit::acceleration;
 }
 
@@ -84,75 +81,6 @@ Unit unit_of(const GuardForm& guard) {
   const Unit a = unit_of(guard.products->front().a), b = unit_of(guard.products->front().b);
   return {a.force + b.force, a.length + b.length, a.time + b.time};
 }
-
-}  // namespace signorini::contact
-
-namespace signorini {
-
-namespace {
-
-/// Binomial coefficients C(k, j), returned one by one for j = 0, 1, ...
-class Binomials {
- public:
-  explicit Binomials(std::size_t k) : k_(static_cast<double>(k)) {}
-  double next() {
-    const double now = value_;
-    j_ += 1.0;
-    value_ *= (k_ - j_ + 1.0) / j_;
-    return now;
-  }
-
- private:
-  double k_, j_ = 0.0, value_ = 1.0;
-};
-
-double derivative_of(const Form& form, const ContactMotion* motion, std::size_t k) {
-  return k == 0 ? form.value(motion[0]) : form.rate(motion[k]);
-}
-
-}  // namespace
-
-double GuardForm::derivative_of_products(const ContactMotion* motion, std::size_t k) const {
-  double sum = 0.0;
-  for (const auto& [a, b] : *products) {
-    Binomials binomials(k);
-    for (std::size_t j = 0; j <= k; ++j)
-      sum += binomials.next() * derivative_of(a, motion, j) * derivative_of(b, motion, k - j);
-  }
-  return sum;
-}
-
-double GuardForm::rounding_of_products(const ContactMotion* motion, const ContactMotion* noise,
-                                       std::size_t k) const {
-  double sum = 0.0;
-  for (const auto& [a, b] : *products) {
-    Binomials binomials(k);
-    for (std::size_t j = 0; j <= k; ++j) {
-      const double da = a.magnitude(noise[j]), db = b.magnitude(noise[k - j]);
-      sum += binomials.next() * (std::abs(derivative_of(a, motion, j)) * db +
-                                 (std::abs(derivative_of(b, motion, k - j)) + db) * da);
-    }
-  }
-  return sum;
-}
-
-double GuardForm::parameter_derivative(const ContactMotion& m, const ContactMotion& by) const {
-  double sum = form.rate(by);
-  for (std::size_t i = 0; !is_linear() && i < products->size(); ++i) {
-    const auto& [a, b] = (*products)[i];
-    sum += a.rate(by) * b.value(m) + a.value(m) * b.rate(by);
-  }
-  return sum;
-}
-
-bool GuardForm::operator==(const GuardForm& other) const {
-  if (kind != other.kind || form != other.form || is_linear() != other.is_linear()) return false;
-  return is_linear() || products == other.products || *products == *other.products;
-}
-
-}  // namespace signorini
-
-namespace signorini::contact {
 
 Rows rows(const Contact& contact, const ContactState& state) { return contact.law->rows(contact, state); }
 

@@ -29,40 +29,16 @@
 // Source: Lukashevich et al. 2021, (6), (7) and (11), generalised to slip in both directions.
 #pragma once
 
-#include <array>
-#include <memory>
-#include <vector>
-
 #include "contact/contact_states.hpp"
 #include "signorini/contact.hpp"
 #include "signorini/user_contact_law.hpp"
-
-namespace signorini {
-
-/// Guards, named after the change of state at the zero of the guard. closing: g of an open contact; opening: -g in state
-/// inside; separation: -N; slip_plus, slip_minus: distance of T from the friction limit in the direction + or -; sliding: the
-/// slip rate; user_1 to user_3: the guards of a user law; none: an unused entry.
-enum class Guard : unsigned char {
-  none,
-  closing,
-  opening,
-  separation,
-  slip_plus,
-  slip_minus,
-  sliding,
-  user_1,
-  user_2,
-  user_3
-};
-
-}  // namespace signorini
 
 namespace signorini::contact {
 /// Name of a guard in messages.
 [[nodiscard]] const char* to_string(Guard guard);
 /// True for the guards of the friction limit.
 [[nodiscard]] constexpr bool is_friction_limit(Guard guard) {
-  return guard == Guard::slip_plus || guard == Guard::slip_minus;
+  return guard == Guard::slip_plus || guard == Guard::slip_minus || guard == Guard::friction_limit;
 }
 /// Name of a law as in a scene file: "compliant", "slider".
 [[nodiscard]] const char* to_string(Law law);
@@ -70,63 +46,8 @@ namespace signorini::contact {
 /// Unit of a form's value, from its nonzero coefficients.
 [[nodiscard]] Unit unit_of(const Form& form);
 
-}  // namespace signorini::contact
-
-namespace signorini {
-
-/// A guard G = form + sum of products a b. Engines and decisions evaluate guards only with these functions. motion[k] is the
-/// k-th time derivative of the motion; noise[k] contains the magnitudes below which entries of motion[k] are treated as zero.
-struct GuardForm {
-  Guard kind = Guard::none;
-  Form form;
-  /// Products a b; nullptr: the guard has no products and is linear.
-  std::shared_ptr<const std::vector<FormProduct>> products = nullptr;
-
-  [[nodiscard]] bool is_linear() const { return products == nullptr; }
-  [[nodiscard]] double value(const ContactMotion& m) const {
-    return is_linear() ? form.value(m) : form.value(m) + derivative_of_products(&m, 0);
-  }
-  /// Time derivative G^(k).
-  [[nodiscard]] double derivative(const ContactMotion* motion, std::size_t k) const {
-    const double d = k == 0 ? form.value(motion[0]) : form.rate(motion[k]);
-    return is_linear() ? d : d + derivative_of_products(motion, k);
-  }
-  /// Bound of the rounding error of G^(k).
-  [[nodiscard]] double rounding(const ContactMotion* motion, const ContactMotion* noise,
-                                std::size_t k) const {
-    const double r = form.magnitude(noise[k]);
-    return is_linear() ? r : r + rounding_of_products(motion, noise, k);
-  }
-  /// Derivative of G with respect to a parameter, from the motion m and its derivative `by` with respect to the parameter.
-  [[nodiscard]] double parameter_derivative(const ContactMotion& m, const ContactMotion& by) const;
-
-  [[nodiscard]] bool operator==(const GuardForm& other) const;
-
- private:
-  [[nodiscard]] double derivative_of_products(const ContactMotion* motion, std::size_t k) const;
-  [[nodiscard]] double rounding_of_products(const ContactMotion* motion, const ContactMotion* noise,
-                                            std::size_t k) const;
-};
-
-}  // namespace signorini
-
-namespace signorini::contact {
-
 /// Unit of a guard's value.
 [[nodiscard]] Unit unit_of(const GuardForm& guard);
-
-}  // namespace signorini::contact
-
-namespace signorini {
-
-/// The two constraint rows of a contact: forms that are zero for the motion of the contact.
-struct Rows {
-  Form normal, tangent;
-};
-
-}  // namespace signorini
-
-namespace signorini::contact {
 
 /// Rows of a contact in this state, from its law.
 [[nodiscard]] Rows rows(const Contact& contact, const ContactState& state);
@@ -135,10 +56,6 @@ namespace signorini::contact {
 [[nodiscard]] ContactLaw::Guards guards(const Contact& contact, const ContactState& state);
 /// Slip rate p' as a form, for a state that slips in direction s = +1 or -1. Unit: length/time.
 [[nodiscard]] Form slip_rate(const Contact& contact, int s);
-
-}  // namespace signorini::contact
-
-namespace signorini {
 
 // The next state of a contact after one of its guards has failed.
 //
@@ -156,17 +73,6 @@ namespace signorini {
 // Source: Lukashevich et al. 2021, section on contact states. The rule for closing compares directions at the apex of the
 // friction cone.
 
-/// Motion of one contact just after an instant: motion[k] is the k-th time derivative. noise[k]: for each entry of motion[k],
-/// the error caused by one rounding of the data.
-struct MotionJet {
-  static constexpr std::size_t orders = 5;  ///< the motion and its first four derivatives
-  std::array<ContactMotion, orders> motion, noise;
-};
-
-}  // namespace signorini
-
-namespace signorini::contact {
-
 /// Slipping state with this sign of the slip rate.
 [[nodiscard]] State slip_state(double direction);
 /// State of a contact with a compressive force that does not slip: stick if the contact has friction, otherwise closed.
@@ -178,29 +84,7 @@ namespace signorini::contact {
 [[nodiscard]] ContactState next_state(const Contact& contact, const ContactState& now, Guard failed,
                                       const MotionJet& jet);
 
-}  // namespace signorini::contact
-
-namespace signorini {
-
-// Amounts by which a contact violates its conditions (6) and (7).
-//
-//   (6)  g >= 0, N <= 0, g N = 0          with a normal spring, g is reduced by its deformation (N - cn g')/kn
-//   (7)  |T| <= T_U, T p' >= 0            T_U: static limit in stick, friction at the slip rate in slip
-
-/// Amounts of violation; a value is positive if its condition is violated.
-struct Violations {
-  double tension = 0.0;  ///< N; positive in tension; force
-  double gap = 0.0;      ///< -(g - deformation of the spring); length; only for contacts with a normal spring
-  double penetration = 0.0;  ///< |g| if closed, -g if open; length; only for rigid contacts
-  double product = 0.0;      ///< |g N|, with g as in `gap` or `penetration`; energy
-  double friction = 0.0;     ///< |T| - T_U of a closed contact; force
-  double direction = 0.0;    ///< -T p' of a slipping contact; power
-};
-
-}  // namespace signorini
-
-namespace signorini::contact {
-
+/// Violations of (6) and (7) by the motion m; see signorini/contact_work.hpp.
 [[nodiscard]] Violations violations(const Contact& contact, State state, const ContactMotion& m);
 
 }  // namespace signorini::contact

@@ -9,23 +9,6 @@
 
 #include "contact/contact_states.hpp"
 
-namespace signorini {
-
-/// Small increments of the motion of a contact, or rates if time = 1; and the gap rate g' during the increment.
-struct ContactIncrement {
-  double slip = 0.0, surface = 0.0, gap = 0.0;  ///< dp, ds, dg
-  double gap_rate = 0.0;                        ///< g'
-  double time = 0.0;                            ///< dt
-};
-
-/// Work during an increment; power if the increment contains rates. For a user-defined law `friction` is the whole work,
-/// stored or dissipated, and ContactIncrement::slip is d ut. Unit: energy; applied_normal_force: force * time.
-struct ContactWork {
-  double friction = 0.0, surface = 0.0, damping = 0.0, applied_normal_force = 0.0;
-};
-
-}  // namespace signorini
-
 namespace signorini::contact {
 
 /// Work of a contact with Coulomb friction.

@@ -406,25 +406,25 @@ Refusal ContactStateSolver::iterate(const motion::Forcing& before, SolverState& 
 }
 
 /// True if the contact sticks at its friction limit from this instant on, and all known derivatives of the guard are zero, so
-/// that the time of slip is unknown.
+/// that the time of slip is unknown. noise: rounding error of the distance from the limit; force.
 bool ContactStateSolver::sticks_at_limit(const SolverState& solver_state, std::size_t c,
-                                         const GuardStart& guard) {
+                                         const GuardStart& guard, double noise) {
   const bool limit = contact::is_friction_limit(guard.kind);
   const bool asked = solver_state.instant.start || solver_state.instant.jump ||
                      solver_state.decision.visited[c] || solver_state.impact_result.decided[c];
   return limit && asked && guard.at_zero && guard.leading_order < 0 &&
-         std::abs(solver_state.jets[c].motion[0].T) > guard.noise;
+         std::abs(solver_state.jets[c].motion[0].T) > noise;
 }
 
 /// True if the contact stops exactly at its static limit (up to rounding), and kinetic friction is lower. Above the limit the
 /// contact would slip at once, by much more than rounding. Not applied at the start of a run, where the friction force is at
-/// most at the limit.
+/// most at the limit. noise: as for sticks_at_limit().
 bool ContactStateSolver::stops_at_static_limit(const SolverState& solver_state, std::size_t c,
-                                               const GuardStart& guard) const {
+                                               const GuardStart& guard, double noise) const {
   const bool asked = solver_state.decision.visited[c] || solver_state.impact_result.decided[c];
   return model_.contacts[c].friction.has_static_drop() && contact::is_friction_limit(guard.kind) && asked &&
          !solver_state.instant.start && guard.at_zero && guard.leading_order > 0 &&
-         std::abs(solver_state.jets[c].motion[0].T) > guard.noise;
+         std::abs(solver_state.jets[c].motion[0].T) > noise;
 }
 
 /// True if all guards of contact c are positive by more than their rounding errors.
@@ -451,11 +451,14 @@ void ContactStateSolver::check_guard_start(SolverState& solver_state, std::size_
     for (std::size_t k = 0; k < start.derivative_noise.size(); ++k)
       start.derivative_noise[k] =
           solver_state.instant.noise_factor * guard.rounding(jet.motion.data(), jet.noise.data(), k + 2);
-  const bool rests = sticks_at_limit(solver_state, c, start);
+  // Near its zero, F^2 - T^2 = 2 |T| (F - |T|); F - |T| is a force, as the value of a linear guard of the friction limit is.
+  const double per_force = guard.is_linear() ? 1.0 : 2.0 * std::abs(jet.motion[0].T);
+  const double noise = start.noise / per_force;
+  const bool rests = sticks_at_limit(solver_state, c, start, noise);
   d.undecided = d.undecided || rests;
   const double value = guard.value(jet.motion[0]);
-  if (rests || (known.zeros == 0 && stops_at_static_limit(solver_state, c, start)))
-    d.at_limit.push_back({c, value, start.noise});
+  if (rests || (known.zeros == 0 && stops_at_static_limit(solver_state, c, start, noise)))
+    d.at_limit.push_back({c, value / per_force, noise});
   // The decision treated this value as zero, so the engine must treat it as rounding, too.
   if (start.at_zero && (start.leading_order < 0 || base != nullptr))
     start.noise = std::max(start.noise, std::abs(value));

@@ -64,9 +64,9 @@ class ContactStateSolver {
   void add_released(SolverState& solver_state) const;
   [[nodiscard]] Refusal iterate(const motion::Forcing& before, SolverState& solver_state);
   [[nodiscard]] static bool sticks_at_limit(const SolverState& solver_state, std::size_t c,
-                                            const GuardStart& guard);
+                                            const GuardStart& guard, double noise);
   [[nodiscard]] bool stops_at_static_limit(const SolverState& solver_state, std::size_t c,
-                                           const GuardStart& guard) const;
+                                           const GuardStart& guard, double noise) const;
   [[nodiscard]] static bool has_clear_guards(const SolverState& solver_state, std::size_t c);
   void check_guard_start(SolverState& solver_state, std::size_t contact, const GuardForm& guard,
                          GuardStart& start) const;

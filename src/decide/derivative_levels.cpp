@@ -296,8 +296,7 @@ std::vector<RestingFeet> DerivativeLevels::find_resting(const Instant& instant,
     bool rests = true;
     for (const Participant& participant : participants) {
       if (std::find(group.begin(), group.end(), participant.contact) == group.end()) continue;
-      rests = rests && !participant.slipping && !participant.kinetic &&
-              model_.contacts[participant.contact].takes_impulses();
+      rests = rests && !participant.slipping && !participant.kinetic;
       feet.push_back(participant.contact);
     }
     if (!rests) continue;
@@ -308,7 +307,7 @@ std::vector<RestingFeet> DerivativeLevels::find_resting(const Instant& instant,
     std::vector<MotionJet> jets;
     const motion::StateSystemPtr system = systems_.system_of(sticking);
     static_cast<void>(jets_.make(system, forcing, instant.t, instant.u, instant.v, jets));
-    if (resting->may_rest(jets)) result.push_back(std::move(*resting));
+    if (resting->may_rest(forcing, instant.t, jets)) result.push_back(std::move(*resting));
   }
   return result;
 }
@@ -333,7 +332,7 @@ Refusal DerivativeLevels::decide(const Instant& instant, const motion::Forcing& 
     std::vector<MotionJet> jets;
     static_cast<void>(jets_.make(system, forcing, instant.t, instant.u, instant.v, jets));
     const auto moves = std::find_if(resting.begin(), resting.end(), [&](const RestingFeet& feet) {
-      return !feet.decide(instant, jets, states, known);
+      return !feet.decide(instant, forcing, jets, states, known);
     });
     if (moves == resting.end()) {
       systems_.mark_static_limits(states, forcing, instant.t);

@@ -114,6 +114,7 @@ void apply_forcing_jump(const Model& model, const Instant& instant, const motion
     const Contact& contact = model.contacts[c];
     ContactState& s = states[c];
     if (contact.normal_spring() || (contact.takes_impulses() && s.is_open())) continue;
+    if (!contact.obeys_coulomb()) continue;  // the guards of its own states decide
     ContactMotion m;
     contact::set_displacement(contact, instant.u, after.surface(c, t, 0), m);
     contact::set_velocity(contact, instant.v, after.surface(c, t, 1), m);

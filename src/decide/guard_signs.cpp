@@ -101,7 +101,8 @@ const MotionJet* resting_reference(const Contact& contact, std::size_t c, const 
   bool any = rests(guard);
   if (guard.kind == Guard::sliding && contact.anchor_spring())
     for (const GuardForm& limit : contact::guards(contact, ContactState{State::stick, state.anchor}))
-      any = any || (limit.kind == (slip_sign(state.state) > 0 ? Guard::slip_plus : Guard::slip_minus) &&
+      any = any || ((limit.kind == Guard::friction_limit ||
+                     limit.kind == (slip_sign(state.state) > 0 ? Guard::slip_plus : Guard::slip_minus)) &&
                     rests(limit));
   return any ? &motion_up_to_instant : nullptr;
 }

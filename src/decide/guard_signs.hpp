@@ -85,6 +85,8 @@ struct KnownGuards {
         return slip_plus;
       case Guard::slip_minus:
         return slip_minus;
+      case Guard::friction_limit:  // it has the signs of the limit that is reached
+        return slip_plus.zeros > slip_minus.zeros ? slip_plus : slip_minus;
       case Guard::sliding:
         return sliding;
       case Guard::none:

@@ -16,14 +16,31 @@ using SetKind = base::ConvexSet::Kind;
 /// A guard that an engine located is zero, whatever digits its force has lost: no engine loses half of them.
 constexpr double located_digits = 0x1p-26;
 
-State state_of(const Contact& contact, const base::ConvexSet& set) {
+/// True if one of the contacts is rigid. Sliders alone share their forces by the decision of accelerations.
+bool has_foot(const Model& model, const std::vector<std::size_t>& contacts) {
+  return std::any_of(contacts.begin(), contacts.end(),
+                     [&](std::size_t c) { return model.contacts[c].takes_impulses(); });
+}
+
+/// Limit F = fs q of a slider's friction force, or its time derivative of this order.
+double limit_of(const Contact& contact, std::size_t c, const motion::Forcing& forcing, double t,
+                std::size_t order) {
+  const double q = forcing.applied_normal_force(c, t, static_cast<int>(order));
+  return order == 0 ? contact::sticking_limit(contact, -q) : contact::static_friction(contact) * q;
+}
+
+/// Sign of the component of a set's direction along the tangent.
+int side_of(const base::ConvexSet& set) { return set.direction[set.size - 1] > 0.0 ? 1 : -1; }
+
+/// side: sign of k = -T if the foot lies at or beyond its limit.
+State state_of(const Contact& contact, const base::ConvexSet& set, int side) {
+  const State at_limit = side > 0 ? State::slip_minus : State::slip_plus;
   switch (set.kind) {
     case SetKind::origin:
-      return State::open;
+      return contact.normal_force_given() ? at_limit : State::open;
     case SetKind::line:
     case SetKind::ray:  // no derivative decides whether the foot begins to bear
-      if (!contact.has_friction() || set.direction[1] == 0.0) return contact::state_at_rest(contact);
-      return set.direction[1] > 0.0 ? State::slip_minus : State::slip_plus;  // k = -T
+      return contact.has_friction() && side != 0 ? at_limit : contact::state_at_rest(contact);
     case SetKind::cone:
     case SetKind::disc:
     case SetKind::whole:
@@ -42,9 +59,8 @@ void add_known(const base::ConvexSet& before, const base::ConvexSet& now, std::s
   if (apex && bears && order > 0) known.separation = {order, true};
   if (now.kind != SetKind::whole || order == 0 || before.kind == SetKind::whole) return;
   if (before.kind == SetKind::cone) known.slip_plus = known.slip_minus = {order, true};
-  if (before.kind == SetKind::half_space && before.size > 1)
-    (before.direction[1] > 0.0 ? known.slip_plus : known.slip_minus) = {order, true};
-  if (before.kind == SetKind::half_space && before.size == 1) known.separation = {order, true};
+  if (before.kind == SetKind::half_space)
+    (side_of(before) > 0 ? known.slip_plus : known.slip_minus) = {order, true};
 }
 
 }  // namespace
@@ -54,6 +70,11 @@ RestingFeet::RestingFeet(const Model& model, std::vector<std::size_t> contacts)
   for (const std::size_t c : contacts_) {
     const Contact& contact = model.contacts[c];
     at_.push_back(static_cast<Eigen::Index>(rows_.size()));
+    if (contact.normal_force_given()) {
+      rows_.push_back(model.layout.tangent(c));
+      sets_.push_back({SetKind::disc, 1, 0.0, 0.0, {}});
+      continue;
+    }
     rows_.push_back(model.layout.normal(c));
     if (contact.has_friction()) rows_.push_back(model.layout.tangent(c));
     sets_.push_back({SetKind::cone,
@@ -62,6 +83,14 @@ RestingFeet::RestingFeet(const Model& model, std::vector<std::size_t> contacts)
                      0.0,
                      {}});
   }
+}
+
+std::vector<base::ConvexSet> RestingFeet::sets_at(const motion::Forcing& forcing, double t) const {
+  std::vector<base::ConvexSet> sets = sets_;
+  for (std::size_t i = 0; i < sets.size(); ++i)
+    if (sets[i].kind == SetKind::disc)
+      sets[i].radius = limit_of(model_->contacts[contacts_[i]], contacts_[i], forcing, t, 0);
+  return sets;
 }
 
 std::optional<RestingFeet> RestingFeet::make(const Model& model, const motion::StateSystem& system,
@@ -84,8 +113,9 @@ Eigen::VectorXd RestingFeet::forces(const std::vector<MotionJet>& jets, std::siz
   Eigen::VectorXd x(static_cast<Eigen::Index>(rows_.size()));
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const ContactMotion& m = jets[contacts_[i]].motion[order];
-    x[at_[i]] = -m.N;
-    if (sets_[i].size > 1) x[at_[i] + 1] = -m.T;
+    const Eigen::Index last = at_[i] + sets_[i].size - 1;
+    if (sets_[i].kind == SetKind::cone) x[at_[i]] = -m.N;
+    if (sets_[i].kind == SetKind::disc || sets_[i].size > 1) x[last] = -m.T;
   }
   return x;
 }
@@ -102,19 +132,25 @@ double RestingFeet::zero_force(const Instant& instant, const std::vector<MotionJ
   return zero;
 }
 
-bool RestingFeet::may_rest(const std::vector<MotionJet>& jets) const {
-  return base::least_norm(a_, a_ * forces(jets, 0), sets_).has_value();
+bool RestingFeet::may_rest(const motion::Forcing& forcing, double t,
+                           const std::vector<MotionJet>& jets) const {
+  return base::least_norm(a_, a_ * forces(jets, 0), sets_at(forcing, t)).has_value();
 }
 
-/// True if the faces of the cones on which x lies leave A' y undetermined: as many feet as can be lie on edges.
-bool RestingFeet::is_degenerate(const Eigen::VectorXd& x, double zero) const {
+/// True if the faces of the sets on which x lies leave A' y undetermined: as many feet as can be lie on edges.
+bool RestingFeet::is_degenerate(const std::vector<base::ConvexSet>& sets, const Eigen::VectorXd& x,
+                                double zero) const {
   const auto size = static_cast<Eigen::Index>(rows_.size());
   Eigen::MatrixXd face = Eigen::MatrixXd::Zero(size, size);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const Eigen::Index at = at_[i], n = sets_[i].size;
+    const Eigen::Index at = at_[i], n = sets[i].size;
     const Eigen::VectorXd part = x.segment(at, n);
+    if (sets[i].kind == SetKind::disc) {
+      face(at, at) = std::abs(part[0]) < sets[i].radius - zero ? 1.0 : 0.0;
+      continue;
+    }
     if (part.norm() <= zero) continue;
-    const bool inside = n == 1 || sets_[i].friction * part[0] - std::abs(part[1]) > zero;
+    const bool inside = n == 1 || sets[i].friction * part[0] - std::abs(part[1]) > zero;
     face.block(at, at, n, n) = inside ? Eigen::MatrixXd::Identity(n, n)
                                       : Eigen::MatrixXd(part * part.transpose() / part.squaredNorm());
   }
@@ -124,56 +160,79 @@ bool RestingFeet::is_degenerate(const Eigen::VectorXd& x, double zero) const {
 
 /// The forces of least norm at an instant, with the multipliers just after it. Where multipliers are not unique, those
 /// are taken that the first change of r leads to.
-std::optional<base::LeastNorm> RestingFeet::at_instant(const std::vector<MotionJet>& jets,
+std::optional<base::LeastNorm> RestingFeet::at_instant(const std::vector<base::ConvexSet>& sets,
+                                                       const std::vector<MotionJet>& jets,
                                                        const Eigen::VectorXd& noise, double& zero) const {
   const Eigen::VectorXd now = forces(jets, 0);
-  auto least = base::least_norm_point(a_, a_ * now, sets_);
-  if (!least || !is_degenerate(least->x, located_digits * now.norm())) return least;
+  auto least = base::least_norm_point(a_, a_ * now, sets);
+  if (!least || !is_degenerate(sets, least->x, located_digits * now.norm())) return least;
   for (std::size_t order = 1; order < MotionJet::orders; ++order) {
     const Eigen::VectorXd change = forces(jets, order);
     if (change.norm() <= noise[static_cast<Eigen::Index>(order)]) continue;
     zero = rounding::many_operations / rounding::eps * located_digits;
     return base::least_norm_point(a_, a_ * (now + located_digits * now.norm() / change.norm() * change),
-                                  sets_);
+                                  sets);
   }
   return least;
 }
 
-bool RestingFeet::decide(const Instant& instant, const std::vector<MotionJet>& jets,
-                         contact::ContactStates& states, std::vector<KnownGuards>& known) const {
-  std::vector<base::ConvexSet> sets = sets_;
+/// Moves the critical cones of sliders at their limits by the derivative of the limit, of this order. Returns the norm of all
+/// offsets; unit: force per time^order.
+double RestingFeet::set_offsets(const motion::Forcing& forcing, double t, std::size_t order,
+                                const std::vector<int>& sides, std::vector<base::ConvexSet>& sets) const {
+  double squared = 0.0;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (sets_[i].kind != SetKind::disc || sides[i] == 0 || sets[i].kind == SetKind::whole) continue;
+    const double rate = limit_of(model_->contacts[contacts_[i]], contacts_[i], forcing, t, order);
+    sets[i].offset = Eigen::VectorXd::Constant(1, sides[i] * rate);
+    squared += rate * rate;
+  }
+  return std::sqrt(squared);
+}
+
+bool RestingFeet::decide(const Instant& instant, const motion::Forcing& forcing,
+                         const std::vector<MotionJet>& jets, contact::ContactStates& states,
+                         std::vector<KnownGuards>& known) const {
+  std::vector<base::ConvexSet> sets = sets_at(forcing, instant.t);
+  std::vector<int> sides(contacts_.size(), 0);  // of feet at their limits: sign of k = -T
   for (const std::size_t c : contacts_) {
     known[c] = {};
-    known[c].touches = true;
+    known[c].touches = model_->contacts[c].takes_impulses();
   }
   Eigen::VectorXd noises(static_cast<Eigen::Index>(MotionJet::orders));
   for (std::size_t order = 0; order < MotionJet::orders; ++order)
     noises[static_cast<Eigen::Index>(order)] = zero_force(instant, jets, order);
   for (std::size_t order = 0; order < MotionJet::orders; ++order) {
     const Eigen::VectorXd x = forces(jets, order);
+    const double moved = order > 0 ? set_offsets(forcing, instant.t, order, sides, sets) : 0.0;
     const double noise = noises[static_cast<Eigen::Index>(order)];
-    if (x.norm() <= noise) continue;  // no change by this derivative
+    if (x.norm() <= noise && moved == 0.0) continue;  // no change by this derivative
     double blur = 0.0;
-    const auto least = order == 0 ? at_instant(jets, noises, blur) : base::least_norm_point(a_, a_ * x, sets);
+    const auto least =
+        order == 0 ? at_instant(sets, jets, noises, blur) : base::least_norm_point(a_, a_ * x, sets);
     if (!least) return false;
-    const double size = std::max(least->multipliers.norm(), x.norm());
+    const double size = std::max({least->multipliers.norm(), x.norm(), moved});
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       const std::size_t c = contacts_[i];
       const bool located = order == 0 && std::any_of(instant.triggered.begin(), instant.triggered.end(),
                                                      [&](const TriggeredGuard& f) { return f.contact == c; });
-      const double zero =
-          (noise / x.norm() + rounding::elimination + blur + (located ? located_digits : 0.0)) * size;
+      const double zero = (noise / std::max(x.norm(), moved) + rounding::elimination + blur +
+                           (located ? located_digits : 0.0)) *
+                          size;
       const base::ConvexSet before = sets[i];
-      sets[i] = base::critical_cone(before, least->multipliers.segment(at_[i], before.size), zero);
+      const Eigen::VectorXd z = least->multipliers.segment(at_[i], before.size);
+      sets[i] = base::critical_cone(before, z, zero);
+      if (before.kind == SetKind::disc && sets[i].kind != SetKind::whole) sides[i] = z[0] > 0.0 ? 1 : -1;
+      if (sets[i].kind == SetKind::line || sets[i].kind == SetKind::ray)
+        sides[i] = sets[i].size > 1 && sets[i].direction[1] != 0.0 ? side_of(sets[i]) : 0;
       add_known(before, sets[i], order, known[c]);
     }
   }
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const std::size_t c = contacts_[i];
-    states[c] = {state_of(model_->contacts[c], sets[i]), 0.0};
-    if (sets[i].kind == SetKind::half_space &&
-        sets[i].size > 1)  // at its limit, and no derivative leads away
-      (sets[i].direction[1] > 0.0 ? known[c].slip_plus : known[c].slip_minus) = Known::at_limit();
+    states[c] = {state_of(model_->contacts[c], sets[i], sides[i]), 0.0};
+    if (sets[i].kind == SetKind::half_space)  // at its limit, and no derivative leads away
+      (side_of(sets[i]) > 0 ? known[c].slip_plus : known[c].slip_minus) = Known::at_limit();
     if (sets[i].kind == SetKind::ray || sets[i].kind == SetKind::cone) {
       known[c].separation = known[c].slip_plus = known[c].slip_minus = Known::at_limit();
     }
@@ -185,6 +244,7 @@ bool RestingFeet::decide(const Instant& instant, const std::vector<MotionJet>& j
 std::vector<RestingFeet::Release> RestingFeet::releases(const contact::ContactStates& states) const {
   const auto size = static_cast<Eigen::Index>(rows_.size());
   Eigen::MatrixXd face = Eigen::MatrixXd::Zero(size, size);  // D
+  Eigen::VectorXd moves = Eigen::VectorXd::Ones(size);  // 0: force of a slider at its limit, which is given
   bool any = false;
   std::vector<int> side(contacts_.size(), 0);  // of an edge: sign of k = -T
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -200,24 +260,32 @@ std::vector<RestingFeet::Release> RestingFeet::releases(const contact::ContactSt
       continue;
     }
     any = true;
+    if (sets_[i].kind == SetKind::disc) {
+      moves[at] = 0.0;
+      continue;
+    }
     const Eigen::Vector2d edge = Eigen::Vector2d(1.0, side[i] * sets_[i].friction).normalized();
     face.block(at, at, n, n) = edge * edge.transpose();
   }
   if (!any) return {};
   const Eigen::MatrixXd spanned = a_ * face * a_.transpose();
   if (base::rank(spanned) < spanned.rows()) return {};  // the body moves
-  const Eigen::MatrixXd z = a_.transpose() * base::solve_dense(spanned, a_);
+  const Eigen::MatrixXd z = a_.transpose() * base::solve_dense(spanned, a_ * moves.asDiagonal());
   std::vector<Release> result;
   const auto add = [&](std::size_t i, Guard guard, const Eigen::VectorXd& of_z) {
     Release release{{contacts_[i], guard}, Eigen::VectorXd::Zero(model_->force_count())};
-    const Eigen::VectorXd of_x = z.middleRows(at_[i], sets_[i].size).transpose() * of_z;
+    Eigen::VectorXd of_x = z.middleRows(at_[i], sets_[i].size).transpose() * of_z;
+    if (sets_[i].kind == SetKind::disc) of_x[at_[i]] -= side[i];  // F = |k|
     for (std::size_t row = 0; row < rows_.size(); ++row)
       release.weights.data()[rows_[row]] = -of_x[static_cast<Eigen::Index>(row)];  // l = -N, k = -T
     result.push_back(std::move(release));
   };
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const double f = sets_[i].friction;
-    if (side[i] != 0) add(i, Guard::sliding, Eigen::Vector2d(-f, side[i]));
+    if (side[i] != 0 && sets_[i].kind == SetKind::disc)
+      add(i, Guard::sliding, Eigen::VectorXd::Constant(1, side[i]));
+    else if (side[i] != 0)
+      add(i, Guard::sliding, Eigen::Vector2d(-f, side[i]));
     if (!states[contacts_[i]].is_open()) continue;
     if (sets_[i].size == 1) add(i, Guard::closing, Eigen::VectorXd::Constant(1, -1.0));
     if (sets_[i].size > 1)
@@ -240,7 +308,10 @@ std::optional<RestingFeet> find_resting_feet(motion::StateSystems& systems, cons
                                              double t, const std::vector<std::size_t>& feet,
                                              contact::ContactStates states) {
   const Model& model = systems.model();
-  if (feet.size() < 2) return std::nullopt;
+  if (feet.size() < 2 || !has_foot(model, feet)) return std::nullopt;
+  for (const std::size_t c : feet)
+    if (model.contacts[c].normal_force_given() && model.contacts[c].friction.is_load_dependent())
+      return std::nullopt;  // the rate of its limit is not linear in that of its compression
   for (const std::size_t c : feet) states[c] = {contact::state_at_rest(model.contacts[c]), 0.0};
   const motion::StateSystemPtr system = systems.system_of(states);
   if (!system) return std::nullopt;
@@ -258,12 +329,12 @@ std::vector<RestingFeet::Release> releases(motion::StateSystems& systems, const 
     std::vector<std::size_t> feet;
     bool at_faces = false;
     for (const std::size_t c : group) {
-      if (!model.contacts[c].takes_impulses()) continue;
-      if (states[c].is_open() && !is_held_at_zero_gap(systems, c, states, u)) continue;
+      const bool slider = model.contacts[c].normal_force_given();
+      if (states[c].is_open() && (slider || !is_held_at_zero_gap(systems, c, states, u))) continue;
       feet.push_back(c);
       at_faces = at_faces || states[c].is_open() || slip_sign(states[c].state) != 0;
     }
-    if (!at_faces) continue;
+    if (!at_faces || !has_foot(model, feet)) continue;
     const auto resting = find_resting_feet(systems, forcing, t, feet, states);
     if (!resting) continue;
     for (RestingFeet::Release& release : resting->releases(states)) result.push_back(std::move(release));

@@ -1,10 +1,13 @@
-// resting_forces.hpp: states of rigid feet that hold a body at rest, from the forces of least norm.
+// resting_forces.hpp: states of rigid feet and sliders that hold a body at rest, from the forces of least norm.
 //
 //   min sum ( N_i^2 + T_i^2 )   over   A x = r(t),   |T_i| <= -fs N_i           x = P(z), z = A' y
+//                                                    |T_i| <= fs q_i(t)         sliders; N_i = -q_i does not count
 //
 //   z_i inside its cone     stick               the force is z_i
 //   z_i beyond an edge      slip+ or slip-      the force lies on the edge: the foot bears its limit
 //   z_i in the polar cone   open                the foot bears nothing
+//
+// x_i = (-N_i, -T_i), of a contact without friction -N_i, of a slider -T_i.
 //
 // r: the forces needed at rest. A: they do not change the motion where A x is kept. The body rests as long as there is
 // such an x. Just after an instant the states follow from r and its derivatives, each the right-hand side of a problem
@@ -14,7 +17,8 @@
 //
 //   z = A' (A D A')^-1 A x                      D: projection onto the span of the face of each foot
 //
-// so that z_i also gives the time at which a foot is released: when it returns into its cone, or leaves the polar cone.
+// so that z_i also gives the time at which a foot is released: when it returns into its cone, or leaves the polar cone. The force
+// of a slider at its limit is given; the formula is that of the other forces.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,11 +43,13 @@ class RestingFeet {
   [[nodiscard]] const std::vector<std::size_t>& contacts() const { return contacts_; }
 
   /// False if no forces within the cones hold the body. jets: motion of all contacts while these stick.
-  [[nodiscard]] bool may_rest(const std::vector<MotionJet>& jets) const;
+  [[nodiscard]] bool may_rest(const motion::Forcing& forcing, double t,
+                              const std::vector<MotionJet>& jets) const;
   /// Sets the states of these contacts just after the instant, and the known signs of their guards. False: the body
   /// begins to move.
-  [[nodiscard]] bool decide(const Instant& instant, const std::vector<MotionJet>& jets,
-                            contact::ContactStates& states, std::vector<KnownGuards>& known) const;
+  [[nodiscard]] bool decide(const Instant& instant, const motion::Forcing& forcing,
+                            const std::vector<MotionJet>& jets, contact::ContactStates& states,
+                            std::vector<KnownGuards>& known) const;
 
   /// One condition of a foot that bears its limit or nothing: weights . forces > 0, forces: of all contacts, in the
   /// order of the model's layout. Unit: force.
@@ -56,20 +62,26 @@ class RestingFeet {
 
  private:
   RestingFeet(const Model& model, std::vector<std::size_t> contacts);
+  /// The sets at time t.
+  [[nodiscard]] std::vector<base::ConvexSet> sets_at(const motion::Forcing& forcing, double t) const;
   /// Forces of the contacts: l and k in the order of rows_, derivative of this order.
   [[nodiscard]] Eigen::VectorXd forces(const std::vector<MotionJet>& jets, std::size_t order) const;
   [[nodiscard]] double zero_force(const Instant& instant, const std::vector<MotionJet>& jets,
                                   std::size_t order) const;
 
-  [[nodiscard]] bool is_degenerate(const Eigen::VectorXd& x, double zero) const;
-  [[nodiscard]] std::optional<base::LeastNorm> at_instant(const std::vector<MotionJet>& jets,
+  [[nodiscard]] double set_offsets(const motion::Forcing& forcing, double t, std::size_t order,
+                                   const std::vector<int>& sides, std::vector<base::ConvexSet>& sets) const;
+  [[nodiscard]] bool is_degenerate(const std::vector<base::ConvexSet>& sets, const Eigen::VectorXd& x,
+                                   double zero) const;
+  [[nodiscard]] std::optional<base::LeastNorm> at_instant(const std::vector<base::ConvexSet>& sets,
+                                                          const std::vector<MotionJet>& jets,
                                                           const Eigen::VectorXd& noise, double& zero) const;
 
   const Model* model_;
   std::vector<std::size_t> contacts_;
   std::vector<std::size_t>
-      rows_;  // of the model's layout, contact by contact: N, then T where there is friction
-  std::vector<base::ConvexSet> sets_;  // of each contact
+      rows_;  // of the model's layout, contact by contact: N unless it is given, then T where there is friction
+  std::vector<base::ConvexSet> sets_;  // of each contact; the radius of a disc is set at each instant
   std::vector<Eigen::Index> at_;       // first row of each contact
   Eigen::MatrixXd a_;
 };

@@ -31,13 +31,8 @@ double tolerance(const Form& form, const ContactMotion& m, const Tolerance& t) {
 }
 
 double tolerance(const GuardForm& guard, const ContactMotion& m, const Tolerance& t) {
-  double sum = tolerance(guard.form, m, t);
-  for (std::size_t i = 0; !guard.is_linear() && i < guard.products->size(); ++i) {
-    const auto& [a, b] = (*guard.products)[i];
-    const double da = tolerance(a, m, t), db = tolerance(b, m, t);
-    sum += std::abs(a.value(m)) * db + (std::abs(b.value(m)) + db) * da;
-  }
-  return sum;
+  return guard.error([&](const Form& form) { return tolerance(form, m, t); },
+                     [&](const Form& form) { return std::abs(form.value(m)); });
 }
 
 }  // namespace signorini::engine

@@ -8,9 +8,9 @@
 namespace signorini::law_check {
 
 /// Adds a violation if the value exceeds the limit. The limit is at least the smallest normal double, because smaller
-/// numbers have few digits. grave: no rounding error explains the violation, and the run must end.
+/// numbers have few digits. unexplained: no rounding error explains the violation, and the run must end.
 void InstantLawChecker::add(int contact, const char* law, double value, double limit, const Unit& unit,
-                            bool grave) {
+                            bool unexplained) {
   limit = std::max(limit, std::numeric_limits<double>::min());
   if (value <= limit) return;
   Violation v;
@@ -20,7 +20,7 @@ void InstantLawChecker::add(int contact, const char* law, double value, double l
   v.value = value;
   v.limit = limit;
   v.unit = unit;
-  v.unexplained = grave;
+  v.unexplained = unexplained;
   const RecordedEvent* event = contact >= 0 ? event_of(static_cast<std::size_t>(contact)) : nullptr;
   if (event == nullptr && contact < 0 && !record_.events.empty()) event = &record_.events.front();
   v.event = record_.start ? "start" : event != nullptr ? event->type : record_.load_jumps ? "load" : "";
@@ -138,11 +138,11 @@ void InstantLawChecker::captures() {
       limit += context_.limits.step * context_.max_contact_acceleration(record_, k) +
                record_.before.driven[k].drift;
     // If the engine does not locate events, a contact that stops within a step may overshoot by its former speed, so no
-    // capture is grave. For engines with steps the limit contains only the leading error terms in h; the higher terms
+    // capture is unexplained. For engines with steps the limit contains only the leading error terms in h; the higher terms
     // are allowed twice as much.
-    const bool grave =
+    const bool unexplained =
         record_.located && speed > (context_.limits.step > 0.0 ? uncertainty_factor : 1.0) * limit;
-    if (speed > limit) add(static_cast<int>(k), "capture", speed, limit, seen::velocity, grave);
+    if (speed > limit) add(static_cast<int>(k), "capture", speed, limit, seen::velocity, unexplained);
   }
 }
 

@@ -150,7 +150,7 @@ class InstantLawChecker {
 
  private:
   [[nodiscard]] bool is_struck() const;
-  void add(int contact, const char* law, double value, double limit, const Unit& unit, bool grave);
+  void add(int contact, const char* law, double value, double limit, const Unit& unit, bool unexplained);
   /// Velocities g' and ut' of a contact before and after one impact.
   struct ImpactVelocities {
     double dg_before = 0.0, dg_after = 0.0, dut_after = 0.0;

@@ -73,19 +73,18 @@ bool RedundantRows::has_mass(const Combination& form) const {
   });
 }
 
-/// Groups of rigid contacts that act on common degrees of freedom, and separate groups of sliders on ground at rest. Sliders
-/// are separate because their normal forces are given; on moving ground, surfaces with different motions do not constrain a
-/// common motion.
+/// Groups of rigid contacts, and of sliders on ground at rest, that act on common degrees of freedom. On moving ground, sliders
+/// whose surfaces have different motions do not constrain a common motion.
 std::vector<std::vector<std::size_t>> RedundantRows::coupled_groups() const {
   base::DisjointSets sets(model_.contacts.size());
-  std::unordered_map<int, std::size_t> feet, sliders;  // first contact on each degree of freedom
+  std::unordered_map<int, std::size_t> first;  // first contact on each degree of freedom
   for (std::size_t k = 0; k < model_.contacts.size(); ++k) {
     const Contact& contact = model_.contacts[k];
     const bool slides = contact.sticks_rigidly() && contact.surface_motion.is_constant();
     if (!contact.takes_impulses() && !(slides && has_mass(contact.tangent))) continue;
-    for (const Combination* form : {&contact.normal, &contact.tangent})
-      for (const auto& term : form->terms)
-        sets.join(k, (contact.takes_impulses() ? feet : sliders).emplace(term.first, k).first->second);
+    if (contact.takes_impulses())
+      for (const auto& term : contact.normal.terms) sets.join(k, first.emplace(term.first, k).first->second);
+    for (const auto& term : contact.tangent.terms) sets.join(k, first.emplace(term.first, k).first->second);
   }
   std::vector<std::vector<std::size_t>> groups = sets.sets();
   std::erase_if(groups, [](const std::vector<std::size_t>& group) { return group.size() < 2; });

@@ -12,8 +12,8 @@
 // So the motion is unchanged, and of all possible forces, f has the least sum of squares of N and T. The factor s > 0 has the
 // magnitude of H' M^-1 H, so that it adds no rounding errors to motion or forces.
 //
-// Sliders are treated like this only together with other sliders, on ground at rest and on degrees of freedom with mass. A
-// model in which a slider and a rigid contact constrain the same motion is refused.
+// Sliders are treated like this on ground at rest and on degrees of freedom with mass, together with other sliders and with
+// rigid contacts.
 #pragma once
 
 #include <Eigen/Core>

@@ -87,6 +87,7 @@ Model restricted(const Model& whole, const std::vector<int>& dofs, const std::ve
     model.contacts.push_back(std::move(contact));
     if (!whole.saved_contacts.empty()) model.saved_contacts.push_back(whole.saved_contacts[k]);
   }
+  model.saved_time = whole.saved_time;
   return model;
 }
 

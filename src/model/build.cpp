@@ -17,6 +17,7 @@
 #include "base/history/pieces.hpp"
 #include "base/rounding.hpp"
 #include "contact/contact_states.hpp"
+#include "contact/curved_surface.hpp"
 #include "model/assembly/assembly.hpp"
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/dofs.hpp"
@@ -89,6 +90,7 @@ void set_initial_state(const Scene& scene, const std::vector<bool>& pressed, Dof
     if (!scene.initial.saved) return;
     take_saved_contact_states(*scene.initial.saved, model);
     model.saved_contacts = final_contacts(*scene.initial.saved, model);
+    model.saved_time = scene.initial.saved->t;
     return;
   }
   bool loaded = false;
@@ -148,6 +150,7 @@ void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) 
   model.damping = dampers;
   if (model.alpha != 0.0) model.damping = SparseMatrix(model.damping + model.alpha * model.mass);
   if (model.beta != 0.0) model.damping = SparseMatrix(model.damping + model.beta * model.stiffness);
+  model.damping.prune(0.0);  // damping that was excluded from beta K leaves zeros
 }
 
 /// Finds the initial state; for run.geometric also the prestress, whose geometric stiffness is added to K.
@@ -251,6 +254,28 @@ void exclude_prestress_damping(const Scene& scene, const DofMap& map, Assembly& 
   assembly.dampers -= scene.damping.beta * assembly::assemble_geometric_stiffness(scene, map).matrix;
 }
 
+/// Subtracts beta times the restoring stiffness N_K / R of pendulums from the dampers, so that beta K does not damp it. This
+/// stiffness is that of a contact force, as contact springs, which beta K does not contain either.
+void exclude_restoring_damping(const Scene& scene, const DofMap& map, const Model& model,
+                               Assembly& assembly) {
+  const double beta = scene.damping.beta;
+  const Assembly restoring = assembly::assemble_restoring_springs(scene, map);
+  std::vector<assembly::LineSpring> more;
+  for (std::size_t k = 0; k < scene.contacts.size(); ++k)
+    if (const double extra = contact::extra_stiffness(scene.contacts[k], model.contacts[k]); extra != 0.0)
+      more.push_back({model.contacts[k].tangent, extra});
+  assembly.dampers -= beta * assembly::with_springs(restoring.stiffness, more);
+  for (std::size_t i = 0; i < assembly.moving.size(); ++i)
+    assembly.moving[i].dampers -= beta * restoring.moving[i].stiffness;
+}
+
+bool has_pendulums(const Scene& scene) {
+  return std::any_of(scene.springs.begin(), scene.springs.end(),
+                     [](const Spring& s) { return s.restoring; }) ||
+         std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                     [](const ContactSpec& c) { return c.pendulum_surface.has_value(); });
+}
+
 /// Scales of the saved run that the scene continues; if there is none, scales computed from the model.
 Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>& closed, const Model& model) {
   const Scales own = find_scales(model, map, closed, scene.run.t_end);
@@ -258,6 +283,14 @@ Scales scales_of(const Scene& scene, const DofMap& map, const std::vector<bool>&
   if (!before || !before->scales) return own;
   const auto& s = *before->scales;
   return {s[0], s[1], s[2], s[3], s[4]};
+}
+
+/// Removes from C what beta adds for stiffness that is no material's: of axial forces, and of pendulums.
+void exclude_geometric_damping(const Scene& scene, const DofMap& map, const Model& model,
+                               Assembly& assembly) {
+  if (scene.damping.beta == 0.0) return;
+  if (model.geometric) exclude_prestress_damping(scene, map, assembly);
+  if (has_pendulums(scene)) exclude_restoring_damping(scene, map, model, assembly);
 }
 
 enum class Extent { structure, without_warnings, all };
@@ -300,7 +333,7 @@ Model assembled(const Scene& scene, const Factors& unit, Extent extent = Extent:
   if (model.geometric && extent == Extent::all) set_load_factors(scene, map, closed, model);
   model.omega1 = lowest_frequency(model.mass, model.stiffness, constrain_contacts(model.contacts, closed));
   const SparseMatrix dashpots = assembly.dampers;
-  if (model.geometric && scene.damping.beta != 0.0) exclude_prestress_damping(scene, map, assembly);
+  exclude_geometric_damping(scene, map, model, assembly);
   set_damping(scene, assembly.dampers, model);
   assembly::add_support_rates(scene, map, assembly, model.alpha, model.beta, model.loads);
   model.omega_max = modes::highest_frequency(model);
@@ -338,7 +371,7 @@ Model built(const Scene& scene, Extent extent) {
     model.internal_units = machine;
     // All models of a scene share the scene's law object; its numbers are bitwise those of the converted copy.
     for (std::size_t k = 0; k < scene.contacts.size(); ++k)
-      if (!model.contacts[k].obeys_coulomb()) model.contacts[k].law = scene.contacts[k].contact_law();
+      if (scene.contacts[k].user_law) model.contacts[k].law = *scene.contacts[k].user_law;
     return model;
   } catch (const SceneError&) {
     static_cast<void>(

@@ -10,6 +10,8 @@
 #include "base/text.hpp"
 #include "contact/curved_surface.hpp"
 #include "contact/friction.hpp"
+#include "model/assembly/loads.hpp"
+#include "model/assembly/moving_obstacles.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/p_delta.hpp"
 #include "model/statics/frictional.hpp"
@@ -121,6 +123,7 @@ std::optional<GivenPlace> place_of(const InitialSpec::Component& c, const assemb
     throw SceneError(c.place, key, fmt::format("found '{}', expected ux, uy, rz, vx, vy or wz", c.component));
   const int node = element::find_node(map.mesh, c.node, c.place, key);
   const int number = map.number[static_cast<std::size_t>(node)][named->index];
+  if (const int own = map.own_number(node, named->index); own >= 0) return GivenPlace{named->rate, own};
   if (number == assembly::DofMap::absent)
     throw SceneError(
         c.place, key,
@@ -196,6 +199,21 @@ std::vector<std::string> unused_values(const Scene& scene, const assembly::DofMa
   return result;
 }
 
+namespace {
+
+/// Initial values of nodes are absolute; degrees of freedom relative to a moving obstacle are w = u - s.
+void subtract_obstacles(const Scene& scene, const assembly::DofMap& map, InitialState& state) {
+  for (const assembly::RelativeMotion& motion : assembly::relative_motions(map))
+    for (const assembly::TiedTerm& term : motion.obstacle) {
+      const History s =
+          assembly::motion_of_support(scene, map, assembly::DofMap::support_of_code(term.number));
+      state.u[motion.dof] -= term.factor * s.piece(0.0).value(0.0, 0);
+      state.v[motion.dof] -= term.factor * s.piece(0.0).value(0.0, 1);
+    }
+}
+
+}  // namespace
+
 InitialState given_state(const Scene& scene, const assembly::DofMap& map) {
   const InitialSpec& spec = scene.initial;
   const int n = map.size();
@@ -205,6 +223,7 @@ InitialState given_state(const Scene& scene, const assembly::DofMap& map) {
   InitialState state{Vector::Zero(n), Vector::Zero(n)};
   for (const auto& c : spec.components)
     if (const auto at = place_of(c, map)) (at->velocity ? state.v : state.u)[at->dof] = c.value;
+  subtract_obstacles(scene, map, state);
   return state;
 }
 

@@ -291,6 +291,7 @@ Model rescaled(Model model, const Factors& factors) {
   for (StageEnd& end : model.statics.stages)
     for (std::vector<double>* forces : {&end.N, &end.T})
       for (double& force : *forces) rescale(force, unit::force);
+  rescale(model.saved_time, unit::time);
   for (SavedState::FinalContact& left : model.saved_contacts) {
     rescale(left.gap, unit::length);
     for (double* length : {&left.ut, &left.slip}) rescale(*length, unit::length);

@@ -9,6 +9,7 @@
 #include "base/text.hpp"
 #include "linear/sparse_cholesky.hpp"
 #include "model/assembly/dofs.hpp"
+#include "model/assembly/motion_names.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/statics/mechanisms.hpp"
 

@@ -13,6 +13,7 @@
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/loads.hpp"
+#include "model/assembly/motion_names.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/initial_state.hpp"
@@ -309,7 +310,7 @@ class ModelWarnings {
     const auto fastest = modes::fastest_growth(model_.stiffness, model_.mass);
     if (!fastest) return;
     const std::vector<double>& factors = model_.geometric->load_factors;
-    const bool at_once = !factors.empty() && factors.front() <= 1.0;
+    const bool at_once = !factors.empty() && factors.front() >= 0.0 && factors.front() <= 1.0;
     found_.push_back(
         fmt::format("under its static forces (run.geometric) the structure is unstable {}: the {} grows like "
                     "exp({:.4g} t)",

@@ -48,6 +48,19 @@ std::vector<double> factors_at(const Scene& scene, const assembly::DofMap& map, 
   return modes::load_factors(elastic, geometric, constraints_in_states(model.contacts, states), count);
 }
 
+/// Load factors < 0, those nearest to zero first: of the forces with the other sign. A structure without stiffness of its own,
+/// which only these forces hold, has none.
+std::vector<double> reversed_factors_at(const Scene& scene, const assembly::DofMap& map, const Model& model,
+                                        const std::vector<State>& states, int count) {
+  const SparseMatrix geometric = assembly::assemble_geometric_stiffness(scene, map).matrix;
+  const SparseMatrix elastic = model.stiffness - geometric, reversed = -geometric;
+  std::vector<double> factors =
+      modes::load_factors(elastic, reversed, constraints_in_states(model.contacts, states), count);
+  std::erase(factors, 0.0);
+  for (double& factor : factors) factor = -factor;
+  return factors;
+}
+
 /// Errors: SceneError if the lowest load factor is at most 1, so that the start is not a stable equilibrium.
 void refuse_buckled(const Scene& scene, const assembly::DofMap& map, const Model& model,
                     const std::vector<State>& states) {
@@ -130,9 +143,11 @@ statics::FrictionalEquilibrium second_pass_frictional(const Scene& scene, const 
 void set_load_factors(const Scene& scene, const assembly::DofMap& map, const std::vector<bool>& closed,
                       Model& model) {
   const bool slid = model.statics.frictional && !model.statics.stages.empty();
-  model.geometric->load_factors =
-      factors_at(scene, map, model,
-                 slid ? model.statics.stages.back().states : sticking(model.contacts, closed), shown_factors);
+  const std::vector<State> states =
+      slid ? model.statics.stages.back().states : sticking(model.contacts, closed);
+  std::vector<double>& factors = model.geometric->load_factors;
+  factors = factors_at(scene, map, model, states, shown_factors);
+  if (factors.empty()) factors = reversed_factors_at(scene, map, model, states, shown_factors);
 }
 
 }  // namespace signorini::model

@@ -46,27 +46,31 @@ void check_known_motion(const Scene& scene, const Model& model, std::size_t k) {
   }
 }
 
-/// Sum of the magnitudes of the terms of a gap, to which the gap's rounding error is relative. In a continued run, errors
-/// of displacements are relative to the largest displacement of the structure, even where a displacement is small.
-double terms_of_gap(const Scene& scene, const Model& model, const Contact& contact) {
-  if (!scene.initial.saved) return std::abs(contact.gap) + contact.normal.magnitude(model.u0);
+/// Rounding error of a gap at the start, relative to the magnitudes of its terms. In a continued run, errors of displacements
+/// are relative to the largest displacement of the structure, even where a displacement is small; and the saved run knows
+/// its times, that of a hit too, up to
+///     dt = time_resolution (t + h),  h <= t: length of a step,    which changes the gap by dt |g'|.
+double rounding_of_gap(const Scene& scene, const Model& model, const Contact& contact) {
+  const double own = std::abs(contact.gap) + contact.normal.magnitude(model.u0);
+  if (!scene.initial.saved) return rounding::many_operations * own;
   double greatest = model.scales.displacement, sum = 0.0;
   for (Eigen::Index i = 0; i < model.u0.size(); ++i)
     if (!model.dofs[static_cast<std::size_t>(i)].rotation)
       greatest = std::max(greatest, std::abs(model.u0[i]));
   for (const auto& term : contact.normal.terms) sum += std::abs(term.second);
-  return std::abs(contact.gap) + sum * greatest;
+  const double dt = 2.0 * rounding::time_resolution * std::abs(scene.initial.saved->t);
+  return rounding::many_operations * (std::abs(contact.gap) + sum * greatest) +
+         dt * contact.normal.magnitude(model.v0);
 }
 
 /// Sets the gap at u0 to zero if it is zero up to rounding. Returns true if the contact touches.
 bool close_gap(const Scene& scene, Model& model, std::size_t k) {
   const Contact& contact = model.contacts[k];
-  const double terms = terms_of_gap(scene, model, contact);
   const double gap = contact.gap_at(model.u0);
   const bool carries = model.static_start && model.statics.reactions[k] > 0.0;
   // A penetration far below the scene's typical displacement may be a rounding error of the displacements.
   const bool rounded = gap < 0.0 && -gap <= rounding::few_operations * model.scales.displacement;
-  if (carries || rounded || std::abs(gap) <= rounding::many_operations * terms) {
+  if (carries || rounded || std::abs(gap) <= rounding_of_gap(scene, model, contact)) {
     double square = 0.0;
     for (const auto& term : contact.normal.terms) square += term.second * term.second;
     for (const auto& [dof, factor] : contact.normal.terms) model.u0[dof] -= gap * factor / square;

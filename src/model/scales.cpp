@@ -8,6 +8,7 @@
 #include "contact/friction.hpp"
 #include "linear/sparse_cholesky.hpp"
 #include "model/assembly/dofs.hpp"
+#include "model/assembly/motion_names.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/model_warnings.hpp"
 #include "model/modes/constrained_structure.hpp"
@@ -62,17 +63,21 @@ double length_of(const assembly::DofMap& map) {
 /// moments, with the length of the structure as arm.
 bool turns_alone(const assembly::DofMap& map, std::size_t node) {
   const auto& n = map.number[node];
-  return map.body[node] >= 0 && n[2] >= 0 && !map.is_tied(n[2]) &&
-         (n[0] == assembly::DofMap::fixed || map.is_tied(n[0]) || n[1] == assembly::DofMap::fixed ||
-          map.is_tied(n[1]));
+  const auto supported = [&](std::size_t c) {
+    return n[c] == assembly::DofMap::fixed ||
+           (map.is_tied(n[c]) && map.own_number(static_cast<int>(node), c) < 0);
+  };
+  return map.body[node] >= 0 && n[2] >= 0 && !map.is_tied(n[2]) && (supported(0) || supported(1));
 }
 
 /// Force on the degrees of freedom of a node. Forces on tied nodes appear at the nodes that determine their motion.
 double force_at(const Vector& p, const assembly::DofMap& map, std::size_t node, double arm) {
-  const auto part = [&](int n) { return n >= 0 && !map.is_tied(n) ? p[n] : 0.0; };
-  const auto& n = map.number[node];
-  const double force = std::hypot(part(n[0]), part(n[1]));
-  return turns_alone(map, node) && arm > 0.0 ? std::max(force, std::abs(part(n[2])) / arm) : force;
+  const auto part = [&](std::size_t c) {
+    const int n = map.own_number(static_cast<int>(node), c);
+    return n >= 0 ? p[n] : 0.0;
+  };
+  const double force = std::hypot(part(0), part(1));
+  return turns_alone(map, node) && arm > 0.0 ? std::max(force, std::abs(part(2)) / arm) : force;
 }
 
 /// Sum of the forces on all nodes; independent of the scene's orientation.
@@ -102,8 +107,7 @@ double greatest_mass(const Model& model, const assembly::DofMap& map) {
   }
   const double arm = length_of(map);
   for (std::size_t i = 0; i < map.number.size(); ++i) {
-    const auto own = [&](int n) { return map.is_tied(n) ? assembly::DofMap::absent : n; };
-    const int x = own(map.number[i][0]), y = own(map.number[i][1]);
+    const int x = map.own_number(static_cast<int>(i), 0), y = map.own_number(static_cast<int>(i), 1);
     const double mx = x >= 0 ? model.mass.coeff(x, x) : 0.0, my = y >= 0 ? model.mass.coeff(y, y) : 0.0;
     const double mxy = x >= 0 && y >= 0 ? model.mass.coeff(x, y) : 0.0;
     if (const int turn = map.number[i][2]; turns_alone(map, i) && arm > 0.0)

@@ -14,7 +14,8 @@ void ContactSeries::fill(const Contact& contact, std::size_t index, const Series
   values_.resize(fields * stride());
   valid_.fill(false);
   for (const Field field : {N, T, gap, ut, slide}) valid_[field] = true;
-  valid_[applied_normal_force_rate] = contact.normal_force_given();
+  normal_force_given_ = contact.normal_force_given();
+  valid_[applied_normal_force_rate] = normal_force_given_;
   double *const g = mutable_coefficients(gap), *const slip = mutable_coefficients(ut),
                 *const normal = mutable_coefficients(N), *const tangent = mutable_coefficients(T);
   for (std::size_t k = 0; k < stride(); ++k) {
@@ -33,7 +34,7 @@ void ContactSeries::fill(const Contact& contact, std::size_t index, const Series
       mutable_coefficients(slide)[k] =
           contact.body_tangent().dot(series.u.col(static_cast<Eigen::Index>(k)).data()) - surface[k];
   }
-  if (valid_[applied_normal_force_rate]) {
+  if (normal_force_given_) {
     const double* applied = series.forcing.applied_normal_force.data() + index * series.forcing.count;
     for (std::size_t k = 0; k <= degree; ++k)
       mutable_coefficients(applied_normal_force_rate)[k] =
@@ -80,6 +81,7 @@ void ContactSeries::combine(const Form& form, double* out) const {
   add(form.vn, vn);
   add(form.vt, vt);
   add(form.an, an);
+  if (form.applied_normal_force != 0.0 && normal_force_given_) add(-form.applied_normal_force, N);  // N = -q
   add(form.applied_normal_force_rate, applied_normal_force_rate);
   out[0] += form.constant;
 }

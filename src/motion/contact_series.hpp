@@ -96,6 +96,7 @@ class ContactSeries {
   void fill_rate(Field field) const;
 
   std::size_t degree_ = 0;
+  bool normal_force_given_ = false;
   double origin_ = 0.0, scale_ = 1.0;
   std::array<double, fields> rates_ = unbounded();
   std::size_t slide_row_ = slide;  // row of `slide`: that of ut if the body and the contact have the same ut

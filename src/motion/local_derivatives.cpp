@@ -20,7 +20,9 @@ constexpr std::size_t max_local_contacts = 6;
 /// True if some guard contains an acceleration, whose order 1 is not computed here.
 bool accelerates(const Contact& contact, const ContactState& state) {
   for (const GuardForm& guard : contact::guards(contact, state))
-    if (guard.kind != Guard::none && (guard.form.an != 0.0 || guard.form.at != 0.0)) return true;
+    if (guard.kind != Guard::none &&
+        guard.any_form([](const Form& form) { return form.an != 0.0 || form.at != 0.0; }))
+      return true;
   return false;
 }
 

@@ -105,6 +105,13 @@ struct WorkIntegrals {
     std::fill(surface.begin(), surface.end(), 0.0);
     std::fill(applied_normal_force.begin(), applied_normal_force.end(), 0.0);
   }
+  /// Changes the signs: the work of the way back.
+  void reverse() {
+    loads = -loads;
+    damping = -damping;
+    for (std::vector<double>* works : {&friction, &surface, &applied_normal_force})
+      for (double& work : *works) work = -work;
+  }
   /// Adds `factor` times the work of contact k.
   void add(std::size_t k, const ContactWork& work, double factor) {
     damping += factor * work.damping;

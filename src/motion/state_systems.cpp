@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/rounding.hpp"
 #include "contact/friction.hpp"
@@ -39,9 +40,29 @@ namespace {
 /// Highest derivative of surface motions that a decision may examine.
 constexpr int max_surface_derivative = 8;
 
+/// A row of a contact that shares its force with other rows.
+struct SharedRow {
+  const linear::SharedForces* shared;
+  Eigen::Index at;  ///< index of the row in shared->rows
+
+  /// The redundantly constrained motion z with the largest component of this row.
+  [[nodiscard]] Eigen::VectorXd motion() const { return shared->null * shared->null.row(at).transpose(); }
+};
+
+/// The first of these groups to which the row at `place` belongs.
+std::optional<SharedRow> find_shared_row(const std::vector<linear::SharedForces>& groups, std::size_t place) {
+  for (const linear::SharedForces& shared : groups) {
+    const auto at = std::find(shared.rows.begin(), shared.rows.end(), place) - shared.rows.begin();
+    if (at < static_cast<std::ptrdiff_t>(shared.rows.size()) && linear::participates_in(shared.null, at))
+      return SharedRow{&shared, at};
+  }
+  return std::nullopt;
+}
+
 /// True if z.s' = 0 from t on: the surfaces of the contacts that constrain a common motion do not move relative to each other.
-bool surfaces_move_alike(const ForceLayout& layout, const linear::SharedForces& shared,
-                         const Eigen::VectorXd& z, const Forcing& forcing, double t) {
+bool surfaces_move_alike(const ForceLayout& layout, const SharedRow& row, const Forcing& forcing, double t) {
+  const linear::SharedForces& shared = *row.shared;
+  const Eigen::VectorXd z = row.motion();
   for (int order = 1; order <= max_surface_derivative; ++order) {
     double sum = 0.0, zero = 0.0;
     for (std::size_t i = 0; i < shared.rows.size(); ++i) {
@@ -195,16 +216,8 @@ StateSystemPtr StateSystems::system_of(const contact::ContactStates& contact_sta
 
 bool StateSystems::holds_as_one(std::size_t c, const StateSystem& system, const Forcing& forcing,
                                 double t) const {
-  for (const linear::SharedForces& shared : system.factorised().shared) {
-    const auto at =
-        std::find(shared.rows.begin(), shared.rows.end(), model_.layout.tangent(c)) - shared.rows.begin();
-    if (at == static_cast<std::ptrdiff_t>(shared.rows.size()) || !linear::participates_in(shared.null, at))
-      continue;
-    if (!surfaces_move_alike(model_.layout, shared, shared.null * shared.null.row(at).transpose(), forcing,
-                             t))
-      return false;
-  }
-  return true;
+  const auto row = find_shared_row(system.factorised().shared, model_.layout.tangent(c));
+  return !row || surfaces_move_alike(model_.layout, *row, forcing, t);
 }
 
 bool StateSystems::gap_held_by_others(std::size_t c, contact::ContactStates contact_states) const {
@@ -212,31 +225,17 @@ bool StateSystems::gap_held_by_others(std::size_t c, contact::ContactStates cont
   if (!may_share(c) || !contact.takes_impulses()) return false;
   contact_states[c].state =
       contact.has_friction() ? State::slip_plus : State::closed;  // its normal row alone
-  for (const linear::SharedForces& shared :
-       matrix_.redundant_rows().in_force(linear::rows_of(model_, contact_states))) {
-    const auto at =
-        std::find(shared.rows.begin(), shared.rows.end(), model_.layout.normal(c)) - shared.rows.begin();
-    if (at < static_cast<std::ptrdiff_t>(shared.rows.size()) && linear::participates_in(shared.null, at))
-      return true;
-  }
-  return false;
+  const auto groups = matrix_.redundant_rows().in_force(linear::rows_of(model_, contact_states));
+  return find_shared_row(groups, model_.layout.normal(c)).has_value();
 }
 
 bool StateSystems::held_by_others(std::size_t c, contact::ContactStates contact_states,
                                   const Forcing& forcing, double t) const {
   if (!may_share(c) || !model_.contacts[c].sticks_rigidly() || contact_states[c].is_open()) return false;
   contact_states[c].state = State::stick;
-  for (const linear::SharedForces& shared :
-       matrix_.redundant_rows().in_force(linear::rows_of(model_, contact_states))) {
-    const auto at =
-        std::find(shared.rows.begin(), shared.rows.end(), model_.layout.tangent(c)) - shared.rows.begin();
-    if (at == static_cast<std::ptrdiff_t>(shared.rows.size()) || !linear::participates_in(shared.null, at))
-      continue;
-    // z of the redundantly constrained motion with the largest z_c.
-    return surfaces_move_alike(model_.layout, shared, shared.null * shared.null.row(at).transpose(), forcing,
-                               t);
-  }
-  return false;
+  const auto groups = matrix_.redundant_rows().in_force(linear::rows_of(model_, contact_states));
+  const auto row = find_shared_row(groups, model_.layout.tangent(c));
+  return row && surfaces_move_alike(model_.layout, *row, forcing, t);
 }
 
 void StateSystems::mark_static_limits(contact::ContactStates& contact_states, const Forcing& forcing,

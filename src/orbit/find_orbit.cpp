@@ -325,9 +325,6 @@ void Search::check_family_edge(const Eigen::MatrixXd& phi) {
     }
 }
 
-/// Number of samples of one period. A smooth extreme is missed by (pi / samples_per_period)^2 / 2 of the amplitude,
-/// the extreme at an impact by pi / samples_per_period of the amplitude.
-constexpr int samples_per_period = 720;
 /// An event that precedes the orbit's time 0 by less than this fraction of the period is an event at time 0.
 /// Chosen value: the remaining error of an orbit that closed to 1e-9.
 constexpr double same_instant = 1e-9;
@@ -352,9 +349,7 @@ void Search::report(const orbit::OrbitState& at_section, double section) {
     start = orbit::orbit_state(from_section.pass({at_section, shot_.duration - section, false}).end);
   const Result rows = map.rows(start, shot_.duration);
   orbit_.start = last_state(orbit::with_shifted_excitation(given_, orbit_.phase), rows);
-  orbit::PassOptions leg{at_section, shot_.duration, false};
-  leg.samples = samples_per_period;
-  const orbit::OrbitPass once = from_section.pass(leg);
+  const orbit::OrbitPass once = from_section.pass({at_section, shot_.duration, false});
   orbit_.sequence = events_from_time_zero(once.events, orbit_.section, orbit_.period);
   orbit_.cycle = once.cycle_energy;
   orbit_.amplitude = once.amplitude;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "contact/friction.hpp"
+#include "orbit/displacement_range.hpp"
 #include "run/run_listener.hpp"
 #include "sensitivity/tangent_run.hpp"
 #include "signorini/simulate.hpp"
@@ -68,7 +69,6 @@ class CycleRecorder final : public Recorder {
     for (Eigen::Index i = 0; i < u_low_.size(); ++i) {
       const bool turns = dofs[static_cast<std::size_t>(i)].rotation;
       grow(pass_.u_amplitude, u_high_[i] - u_low_[i], turns ? s.rotation : length);
-      if (!turns) grow(pass_.amplitude, u_high_[i] - u_low_[i], 1.0);
       grow(pass_.v_amplitude, v_high_[i] - v_low_[i], turns ? spin : velocity);
     }
     for (std::size_t c = 0; c < T_.size(); ++c) {
@@ -176,13 +176,20 @@ class Follower final : public run::RunListener {
  public:
   Follower(const Model& model, const RunSpec& run, const PassOptions& leg, OrbitPass& pass,
            sensitivity::StateFlow* flow, modal::ModalCache& kept)
-      : model_(model), run_(run), leg_(leg), pass_(pass), flow_(flow), share_{&kept, nullptr} {}
+      : model_(model),
+        run_(run),
+        leg_(leg),
+        pass_(pass),
+        flow_(flow),
+        share_{&kept, nullptr},
+        range_(model, leg.duration) {}
 
   /// Peaks inside steps are not needed: extremes of outputs are searched separately.
   [[nodiscard]] run::ListenerNeeds needs() { return {&share_, false}; }
 
   void begin(const run::RunInstant& start) override {
     pass_.begin = pass_.end = orbit_point(start.t, start.after);
+    range_.begin_stretch(start.t, start.after.u, start.after.v);
     for (std::size_t c = 0; c < model_.contacts.size(); ++c)
       pass_.never_slips.push_back(!pass_.begin.states[c].is_open() &&
                                   slip_sign(pass_.begin.states[c].state) == 0);
@@ -192,11 +199,13 @@ class Follower final : public run::RunListener {
     bundle_->run().begin(start);
   }
   void step(const run::RunStep& step) override {
+    range_.follow(step);
     if (bundle_) bundle_->run().step(step);
   }
   void instant(const run::RunInstant& instant) override {
     if (bundle_) bundle_->run().instant(instant);
     pass_.end = orbit_point(instant.t, instant.after);
+    range_.begin_stretch(instant.t, instant.after.u, instant.after.v);
     bool changes = !instant.after.impulses.empty();
     for (std::size_t c = 0; c < instant.states_before.size(); ++c)
       if (instant.states_before[c].state != instant.after.states[c].state) {
@@ -209,6 +218,7 @@ class Follower final : public run::RunListener {
     if (bundle_) bundle_->run().end(last, engine);
   }
   void finish() const {
+    pass_.amplitude = range_.amplitude();
     if (bundle_) bundle_->finish(pass_);
   }
 
@@ -219,6 +229,7 @@ class Follower final : public run::RunListener {
   OrbitPass& pass_;
   sensitivity::StateFlow* flow_;
   modal::SharedModalData share_;
+  DisplacementRange range_;
   std::optional<Bundle> bundle_;
 };
 

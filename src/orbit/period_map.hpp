@@ -25,7 +25,8 @@ struct OrbitPass {
   /// Half of the largest range (maximum - minimum) of a displacement, a velocity and a shear, rotations included; in
   /// scales of the model; 0: at rest.
   double u_amplitude = 0.0, v_amplitude = 0.0, T_amplitude = 0.0;
-  double amplitude = 0.0;  ///< half the largest range of a displacement, rotations excluded; scene's unit
+  /// Half the largest range of a displacement, rotations excluded (displacement_range.hpp); scene's unit.
+  double amplitude = 0.0;
   /// Phi B, rows: coordinates at the section; empty: not requested, or not available
   Eigen::MatrixXd end_derivatives;
   /// Error of end_derivatives by rounding and truncation of series, relative to the largest entry of end_derivatives.
@@ -50,7 +51,8 @@ struct PassOptions {
   double duration;
   bool tangents = true;
   bool outputs = false;  ///< compute extremes of outputs
-  /// Number of samples from which amplitudes are computed. Chosen value: amplitudes only scale the residual.
+  /// Number of samples from which u_amplitude, v_amplitude and T_amplitude are computed. Chosen value: they only scale the
+  /// residual.
   int samples = 24;
 };
 

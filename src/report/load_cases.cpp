@@ -408,20 +408,20 @@ std::string warnings_html(const std::vector<LoadCase>& cases) {
 }  // namespace
 
 std::vector<std::string> load_case_warnings(const std::vector<LoadCase>& cases) {
-  std::vector<std::string> doubts;
+  std::vector<std::string> warnings;
   for (const LoadCase& c : cases) {
     const base::Json& outcome = entry_of(c.summary, "outcome");
     if (!is_done(c))
-      doubts.push_back(fmt::format(
+      warnings.push_back(fmt::format(
           "case {0} ended at t = {1} of {2} ({3}); values of case {0} are not used as governing values",
           c.name, shown(number_in(entry_of(outcome, "t")).value_or(0.0)),
           shown(number_in(entry_of(outcome, "t_end")).value_or(0.0)), text_in(entry_of(outcome, "kind"))));
     if (names_in(entry_of(c.summary, "contacts")) != names_in(entry_of(cases.front().summary, "contacts")))
-      doubts.push_back(
+      warnings.push_back(
           fmt::format("cases {} and {} have different contacts; check that they describe the same structure",
                       cases.front().name, c.name));
   }
-  return doubts;
+  return warnings;
 }
 
 std::string load_cases_html(const std::vector<LoadCase>& cases) {
@@ -439,15 +439,15 @@ std::string load_cases_html(const std::vector<LoadCase>& cases) {
         is_done(c) ? "done" : "<b>" + html_text(kind) + "</b>", t ? shown(*t) : "",
         html_text(base::json_line(entry_of(events, "total"))));
   }
-  std::string doubts;
-  for (const std::string& doubt : load_case_warnings(cases))
-    doubts += "<p><b>" + html_text(doubt) + "</b></p>\n";
+  std::string warnings;
+  for (const std::string& warning : load_case_warnings(cases))
+    warnings += "<p><b>" + html_text(warning) + "</b></p>\n";
   text +=
       section("cases", "Load cases",
               table("<th>case</th><th>title</th><th>changed in the scene</th><th>engine</th><th>outcome</th>"
                     "<th>reached t</th><th>events</th>",
                     facts) +
-                  doubts + signs("Bold: the governing case, by minimum, maximum or greatest magnitude.") +
+                  warnings + signs("Bold: the governing case, by minimum, maximum or greatest magnitude.") +
                   warnings_html(cases));
   const std::vector<CaseRow> rows = case_rows(cases);
   text += section("loads", "Support loads", rows_html(cases, rows, Sheet::support));

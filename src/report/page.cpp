@@ -103,19 +103,40 @@ std::string outcome_text(const base::Json& summary) {
                      reason.is_string() && reason != "" ? ": " + value_text(reason) : "");
 }
 
+bool leaves_out_modes(const base::Json& summary) {
+  const base::Json& left_out = member(member(summary, "reduction"), "modes_left_out");
+  return left_out.is_number() && left_out > 0;
+}
+
+/// Fact about the modes that [reduction] leaves out, and their estimated effect at contacts.
+std::string reduction_fact(const base::Json& summary) {
+  if (!leaves_out_modes(summary)) return "";
+  const base::Json &reduction = member(summary, "reduction"), &units = member(summary, "units");
+  const base::Json& at_contacts = member(reduction, "left_out_at_contacts");
+  std::string text = fmt::format("{} modes kept, {} left out", value_text(member(reduction, "modes_kept")),
+                                 value_text(member(reduction, "modes_left_out")));
+  if (at_contacts.is_object())
+    text += fmt::format(
+        "; they would change displacements at contacts by about {} {} in one loading, and slips add up",
+        value_text(member(at_contacts, "displacement")), value_text(member(units, "length")));
+  return fact("reduced model", text);
+}
+
 std::string certified_text(const base::Json& summary) {
   const base::Json& certified = member(summary, "certified");
   const base::Json& reason = member(certified, "reason");
   if (!member(certified, "until").is_number()) return "no";
-  return (member(certified, "complete") == true
-              ? "the sequence of events, to the end"
-              : "the sequence of events until t = " + value_text(certified["until"])) +
+  const std::string what =
+      leaves_out_modes(summary) ? "the sequence of events of the reduced model" : "the sequence of events";
+  return what +
+         (member(certified, "complete") == true ? ", to the end"
+                                                : " until t = " + value_text(certified["until"])) +
          (reason.is_string() && reason != "" ? ": " + value_text(reason) : "");
 }
 
 std::string run_facts(const base::Json& summary) {
   std::string text = "<dl>\n" + fact("outcome", outcome_text(summary));
-  text += fact("certified", certified_text(summary));
+  text += fact("certified", certified_text(summary)) + reduction_fact(summary);
   text += fact("engine", value_text(member(summary, "engine")));
   const base::Json& events = member(summary, "events");
   std::string counts = value_text(member(events, "total"));
@@ -164,6 +185,7 @@ constexpr Condition conditions[] = {{"gap", "gap g < 0", "length"},
                                     {"friction", "friction |T| > T_U", "force"},
                                     {"direction", "friction against slip T p' < 0", "force length/time"},
                                     {"equilibrium", "equilibrium", "force"},
+                                    {"at_limit", "at rest at |T| = T_U", "force"},
                                     {"reactions", "sum of reactions", "force"},
                                     {"energy", "energy balance", "force length"}};
 

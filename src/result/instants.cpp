@@ -1,6 +1,8 @@
 #include "result/instants.hpp"
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <unistd.h>
 #include <cerrno>
 #include <cmath>
 #include <sstream>
@@ -253,8 +255,23 @@ base::Json names(const std::vector<NamedGuard>& guards, const Model& model, bool
 
 }  // namespace
 
+namespace {
+
+/// Errors: FileError for a named pipe that no program reads; opening it would wait for a reader.
+void check_reader(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_fifo(path, error)) return;
+  const int pipe = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+  if (pipe < 0 && errno == ENXIO)
+    throw FileError(path.string(), "is a pipe that no program reads; start its reader first, or give a file");
+  if (pipe >= 0) ::close(pipe);
+}
+
+}  // namespace
+
 TraceWriter::TraceWriter(const std::filesystem::path& path, const Model& model) : model_(model), path_(path) {
   base::check_output_file(path, "trace", R"(,"round":1,"fired":[)");
+  check_reader(path);
   errno = 0;
   file_.open(path);
   if (!file_) throw FileError(path.string(), "cannot be created" + base::system_error_text(errno));

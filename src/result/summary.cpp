@@ -248,13 +248,17 @@ base::Json response_json(const Model& model, const Report& report) {
 base::Json audit_json(const Model& model, const Audit& a) {
   base::Json json = {{"gap", extreme_json(model, a.gap, a.length_scale)},
                      {"tension", extreme_json(model, a.tension, a.force_scale)},
-                     {"product", extreme_json(model, a.product, a.energy_scale)},
+                     {"product", extreme_json(model, a.product, a.energy_reference())},
                      {"friction", extreme_json(model, a.friction, a.force_scale)},
                      {"direction", extreme_json(model, a.direction, a.power_scale)},
                      {"equilibrium", extreme_json(model, a.equilibrium, a.force_scale)},
                      {"penetration", extreme_json(model, a.penetration, a.length_scale)},
                      {"impulses_on_closed", a.impulses_on_closed},
-                     {"energy", extreme_json(model, a.energy, a.energy_scale)}};
+                     {"energy", extreme_json(model, a.energy, a.energy_reference())}};
+  if (a.contacts_at_limit > 0) {
+    json["at_limit"] = extreme_json(model, a.at_limit, a.force_scale);
+    json["at_limit"]["contacts"] = a.contacts_at_limit;
+  }
   if (a.reactions) json["reactions"] = extreme_json(model, *a.reactions, a.force_scale);
   return json;
 }
@@ -312,7 +316,7 @@ std::string summary_json(const Scene& scene, const Model& model, const Certified
   json["certified"] = certificate_json(run);
   if (!run.certificate && !run.reason.empty()) json["not_certified"] = run.reason;
   json["counters"] = counter_json(report.counters);
-  if (model.reduction) json["reduction"] = reduction_json(*model.reduction, &report);
+  if (model.reduction) json["reduction"] = reduction_json(*model.reduction, &run);
   json["witness"] = law_check_json(model, report.law_checks);
   json["audit"] = audit_json(model, report.audit);
   json["energy"] = {{"initial", energy_json(report.audit.initial)},

@@ -8,7 +8,8 @@
 
 namespace signorini::result {
 
-base::Json reduction_json(const Reduction& r, const Report* report) {
+base::Json reduction_json(const Reduction& r, const CertifiedReport* run) {
+  const Report* report = run != nullptr ? &run->report : nullptr;
   base::Json json = {{"cutoff_omega", r.cutoff},
                      {"modes_kept", r.modes},
                      {"free_motions", r.free_modes},
@@ -34,6 +35,9 @@ base::Json reduction_json(const Reduction& r, const Report* report) {
                                {"moved", trial.moved},
                                {"error", trial.error}});
   }
+  if (run != nullptr && run->reduction)
+    json["left_out_at_contacts"] = {{"displacement", run->reduction->displacement},
+                                    {"force", run->reduction->force}};
   json["compliance"] = base::Json::array();
   for (const ComplianceShare& share : r.shares) {
     base::Json row = {{"of", share.label}, {"all_modes", share.compliance}, {"left_out", share.residual}};

@@ -7,6 +7,7 @@
 
 #include "base/json.hpp"
 #include "model/outputs/reactions.hpp"
+#include "signorini/certify.hpp"
 #include "signorini/result.hpp"
 #include "signorini/scene.hpp"
 
@@ -27,7 +28,7 @@ inline base::Json hangers_json(const Model& model) {
 /// A reduced model, for summary.json and `signorini check --json`. report: that of the run, or null. With a report every
 /// direction of a contact has the key `followed`: compliance of the truncated modes times the largest contact force. This
 /// is the displacement of the contact in the truncated modes, without their inertia.
-[[nodiscard]] base::Json reduction_json(const Reduction& reduction, const Report* report);
+[[nodiscard]] base::Json reduction_json(const Reduction& reduction, const CertifiedReport* run);
 
 // The units of a scene as JSON, with the keys of scene files.
 

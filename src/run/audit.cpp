@@ -55,6 +55,7 @@ Auditor::Auditor(const Model& model, const linear::SystemMatrices& structure)
       friction_(model.contacts.size(), 0.0),
       peaks_(model.contacts.size()),
       supports_(model.contacts.size()),
+      rested_at_limit_(model.contacts.size(), false),
       landings_(model),
       massless_(has_instantaneous_parts(model)) {}
 
@@ -82,11 +83,21 @@ void Auditor::begin(const decide::Decision& decision, const contact::ContactStat
   }
   landings_.begin(decision.jet.t, first);
   landings_.instant(decision.jet.t, decision, first);
+  update_limits(decision.jet.t, decision);
   work_.impact += decision.impact_loss;
   work_.surface += decision.impact_surface_work;
   correction_energy_at_start_ = model_.correction_energy(decision.jet.t);
   audit_.initial = energy(decision.jet.t, decision.states, point);
   begun_ = true;
+}
+
+void Auditor::update_limits(double t, const decide::Decision& decision) {
+  for (const decide::ContactAtLimit& found : decision.at_limit) {
+    const Extreme here{std::abs(found.margin), t, static_cast<int>(found.contact)};
+    if (audit_.contacts_at_limit == 0 || here.value > audit_.at_limit.value) audit_.at_limit = here;
+    if (!rested_at_limit_[found.contact]) ++audit_.contacts_at_limit;
+    rested_at_limit_[found.contact] = true;
+  }
 }
 
 void Auditor::update_peak_forces(std::size_t contact, double t, double N, double T) {
@@ -161,6 +172,7 @@ double Auditor::work_of_jump(const motion::Forcing& forcing, double t, const mot
 void Auditor::instant(double t, const decide::Decision& decision, const contact::ContactStates& old_states,
                       const motion::Point& before, const motion::Forcing& forcing, bool load_jumps) {
   landings_.instant(t, decision, old_states);
+  update_limits(t, decision);
   work_.impact += decision.impact_loss;
   work_.surface += decision.impact_surface_work;
   for (const decide::Impulse& impulse : decision.impulses)

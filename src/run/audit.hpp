@@ -58,6 +58,8 @@ class Auditor {
     return motion::motion_of(model_.contacts[k], k, forcing, t, point);
   }
 
+  /// Notes the contacts that rest at their friction limit from a decision at t on.
+  void update_limits(double t, const decide::Decision& decision);
   /// Updates the extremes of N and T of a contact with their values at t.
   void update_peak_forces(std::size_t contact, double t, double N, double T);
   /// Position p of the sliding point; while a contact with tangential_stiffness sticks: its anchor.
@@ -85,6 +87,7 @@ class Auditor {
   double correction_energy_at_start_ = 0.0;  ///< Model::correction_energy at t = 0
   std::vector<Peak> peaks_;
   std::vector<SupportLoad> supports_;
+  std::vector<bool> rested_at_limit_;  // one entry per contact
   LandingTracker landings_;
   bool massless_;  // has_instantaneous_parts(model)
   bool begun_ = false;

@@ -258,7 +258,7 @@ ExpectedCost expected_cost(const Model& model, const RunSpec& run) {
 
 bool exact_accepts(const Model& model, const RunSpec& run) {
   if (!std::all_of(model.contacts.begin(), model.contacts.end(),
-                   [](const Contact& contact) { return contact.obeys_coulomb(); }))
+                   [](const Contact& contact) { return contact.has_linear_coulomb_law(); }))
     return false;
   try {
     const RunSpec exact = by_exact(run);

@@ -30,7 +30,7 @@ void refuse_nothing(const Model& /*model*/, const RunSpec& /*run*/) {}
 
 void refuse_user_laws(const Model& model, const RunSpec& run) {
   for (const Contact& contact : model.contacts)
-    if (contact.obeys_coulomb())
+    if (contact.has_linear_coulomb_law())
       continue;
     else if (contact.law->is_named())
       refuse(run,

@@ -21,7 +21,7 @@ class FaultInjector {
   virtual void watch(std::vector<decide::GuardStart>& /*guards*/) {}
   /// Changes the states, velocities and impulses in `decided`. Returns true if the run is to continue from these states and
   /// velocities; false: `decided` is not used.
-  virtual bool change(const contact::ContactStates& /*mode_before*/, const Vector& /*v_before*/,
+  virtual bool change(const contact::ContactStates& /*states_before*/, const Vector& /*v_before*/,
                       decide::Decision& /*decided*/) {
     return false;
   }

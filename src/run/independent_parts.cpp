@@ -30,6 +30,11 @@ void merge_results(const assembly::PartModel& part, const Audit& own, Audit& all
       all.*extreme = own.*extreme;
       (all.*extreme).contact = number_of(part, (own.*extreme).contact);
     }
+  if (own.contacts_at_limit > 0 && (all.contacts_at_limit == 0 || own.at_limit.value > all.at_limit.value)) {
+    all.at_limit = own.at_limit;
+    all.at_limit.contact = number_of(part, own.at_limit.contact);
+  }
+  all.contacts_at_limit += own.contacts_at_limit;
   all.energy.value += own.energy.value;
   all.length_scale = own.length_scale;
   all.force_scale = own.force_scale;
@@ -209,7 +214,14 @@ class IndependentParts {
       update_stops(i);
     }
     reported_ = until;
-    return over() ? 0 : rows_.forward(until == spec_.t_end ? until : reached(), until == spec_.t_end);
+    return over() ? 0 : forward(until == spec_.t_end ? until : reached(), until == spec_.t_end);
+  }
+
+  /// Forwards rows and events; the recorder may end the run after a row.
+  std::size_t forward(double t, bool last) {
+    const std::size_t events = rows_.forward(t, last);
+    if (rows_.stopped_at()) interrupted_ = true;
+    return events;
   }
 
   /// Earliest time reached by any part: all rows up to this time are complete.
@@ -245,7 +257,8 @@ class IndependentParts {
     std::vector<RunEnd> endings;
     std::vector<PartRecorder*> drawn;
     std::vector<std::unique_ptr<PartRecorder>> again;
-    const double end = interrupted_ ? reached() : std::min(end_, spec_.t_end);
+    double end = interrupted_ ? reached() : std::min(end_, spec_.t_end);
+    if (rows_.stopped_at()) end = *rows_.stopped_at();
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const bool beyond = !interrupted_ && stopped_ != nullptr && loops_[i]->t() > end;
       drawn.push_back(recorders_[i].get());
@@ -256,7 +269,8 @@ class IndependentParts {
       endings.push_back(beyond ? until(end, parts_[i], *again.back()) : loops_[i]->end());
       if (&parts_[i] == stopped_) result.law_violated = endings.back().law_violated;
     }
-    if (over() && begun()) rows_.forward(end, true);
+    if (over() && begun()) forward(end, true);
+    if (rows_.stopped_at()) end = *rows_.stopped_at();
     rows_.finish();
     rows_.forward_motion(end, drawn);
     result.energy_rounding = merge_results(whole_, parts_, endings, report_);

@@ -106,7 +106,8 @@ bool Loop::start() {
   decide::Instant now;
   now.u = model_.u0;
   now.v = model_.v0;
-  now.resolution = s.resolution = motion::resolution_at(0.0, 0.0);
+  // A state that another run saved at an event has guards that are zero up to the resolution of its time.
+  now.resolution = s.resolution = motion::resolution_at(model_.saved_time, model_.saved_time);
   now.start = true;
   now.resolves_low_flights = engine_->resolves_low_flights;
   now.states = decide::initial_states(model_, s.forcing, 0.0, model_.u0, model_.v0);
@@ -161,6 +162,7 @@ bool Loop::step() {
   if (event && hooks_.event_shift) step.end += hooks_.event_shift->shift(step);
   if (event && hooks_.faults) step.end += hooks_.faults->late(step, s.decision);
   finish_step(step);
+  if (record_.stopped_at()) return stop("interrupted", Outcome::Kind::interrupted);
   if (event) return instant(std::move(step.triggered), std::move(step.engine_states)) && steered();
   if (!recorder_.progress(s.t)) return stop("interrupted", Outcome::Kind::interrupted);
   if (step.end >= stretch_.end) return instant({}) && steered();
@@ -168,8 +170,9 @@ bool Loop::step() {
   return !changes_.change().any || (instant({}) && steered());
 }
 
-/// Passes the completed step to the listeners: its interior first, then its end.
-void Loop::finish_step(const engine::Step& step) {
+/// Passes the completed step to the listeners: its interior first, then its end. If the recorder ends the run at a row inside
+/// the step, the step ends there.
+void Loop::finish_step(engine::Step& step) {
   engine::DenseOutput& motion = engine_->dense_output();
   engine::StepFacts facts = motion.facts();
   // A step that ends at a release of a foot has no turning points beyond its end.
@@ -178,6 +181,10 @@ void Loop::finish_step(const engine::Step& step) {
       facts.turning_points.first(static_cast<std::size_t>(inside - facts.turning_points.begin()));
   const RunStep made{step, facts, state_.decision, state_.forcing, motion};
   hooks_.listeners.step(made);
+  if (record_.stopped_at()) {
+    step.end = *record_.stopped_at();
+    step.kind = engine::Step::Kind::accepted;
+  }
   state_.t = step.end;
   motion.evaluate(state_.t, state_.point);
   hooks_.listeners.reached(made, current_point());
@@ -266,7 +273,9 @@ bool Loop::instant(std::vector<decide::TriggeredGuard> fired, std::optional<cont
   touches_.instant(s.t, old_states, next);
   s.decision = std::move(next);
   s.point = std::move(after);
-  return has_no_unexplained_violation();
+  if (!has_no_unexplained_violation()) return false;
+  // Asked again: the recorder has received the events of this instant.
+  return recorder_.progress(s.t) || stop("interrupted", Outcome::Kind::interrupted);
 }
 
 RunEnd Loop::end() {

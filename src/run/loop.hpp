@@ -56,7 +56,7 @@ class Loop {
   bool refuse(const Refusal& refusal);
   bool start();
   bool step();
-  void finish_step(const engine::Step& step);
+  void finish_step(engine::Step& step);
   bool steer();
   bool steered();
   bool instant(std::vector<decide::TriggeredGuard> fired,

@@ -254,16 +254,16 @@ double OutputMonitor::turning(engine::DenseOutput& motion, const Part& step) {
   return std::min(omega, most);
 }
 
-/// True if the fast motion `ripple` is negligible in every output, at every position of its segments: it is smaller than
+/// True if the fast motion `fast_bound` is negligible in every output, at every position of its segments: it is smaller than
 /// the rounding of the output's terms, the rounding of the sums over modes (`whole`), or the allowed error of p.
-bool OutputMonitor::is_rounding(const engine::FastModeBound& ripple,
+bool OutputMonitor::is_rounding(const engine::FastModeBound& fast_bound,
                                 const engine::FastModeBound& whole) const {
   for (const Watched& watched : watched_) {
     const OutputExtremes& known = extremes_[watched.output];
     double magnitude = 0.0, most = 0.0, terms = 0.0;
     for (std::size_t i = watched.first; i < watched.first + watched.count; ++i) {
       magnitude = std::max(magnitude, magnitudes_[i]);
-      most = std::max(most, fast_mode_contribution(ripple, form_norms_[i], *forms_[i], model_.layout));
+      most = std::max(most, fast_mode_contribution(fast_bound, form_norms_[i], *forms_[i], model_.layout));
       terms = std::max(terms, fast_mode_contribution(whole, form_norms_[i], *forms_[i], model_.layout));
     }
     const double size = std::max(std::abs(known.maximum), std::abs(known.minimum));

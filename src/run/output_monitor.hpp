@@ -96,7 +96,7 @@ class OutputMonitor {
   void write(double t, const std::vector<OutputReading>& readings);
   void update_extremes(std::size_t output, double t, const OutputReading& reading);
   [[nodiscard]] double turning(engine::DenseOutput& motion, const Part& step);
-  [[nodiscard]] bool is_rounding(const engine::FastModeBound& ripple,
+  [[nodiscard]] bool is_rounding(const engine::FastModeBound& fast_bound,
                                  const engine::FastModeBound& whole) const;
   void update_from_samples(const Watched& watched, const Part& part, std::size_t stride);
   [[nodiscard]] std::span<const Chebyshev::Values> samples_of(const Watched& watched) const;

@@ -49,12 +49,12 @@ FormNorm form_norm_of(const engine::FastModes& modes, const Output& linear) {
   return {modes.form_norm(linear.u), modes.form_norm(linear.v), modes.form_norm(linear.a)};
 }
 
-double fast_mode_contribution(const engine::FastModeBound& ripple, const FormNorm& reach,
+double fast_mode_contribution(const engine::FastModeBound& fast_bound, const FormNorm& reach,
                               const Output& linear, const ForceLayout& layout) {
-  double sum = reach.u * ripple.u + reach.v * ripple.v + reach.a * ripple.a;
+  double sum = reach.u * fast_bound.u + reach.v * fast_bound.v + reach.a * fast_bound.a;
   for (const Output::ContactForces& f : linear.forces)
-    sum += std::abs(f.N) * ripple.forces[static_cast<Eigen::Index>(layout.normal(f.contact))] +
-           std::abs(f.T) * ripple.forces[static_cast<Eigen::Index>(layout.tangent(f.contact))];
+    sum += std::abs(f.N) * fast_bound.forces[static_cast<Eigen::Index>(layout.normal(f.contact))] +
+           std::abs(f.T) * fast_bound.forces[static_cast<Eigen::Index>(layout.tangent(f.contact))];
   return sum;
 }
 
@@ -99,8 +99,8 @@ double FastModeCutoff::output_rate(
     const engine::FastModes& modes, double all,
     const std::function<bool(const engine::FastModeBound&)>& is_rounding) const {
   const auto is_rounding_above = [&](double omega) {
-    const auto ripple = modes.fast_mode_bound(omega);
-    return ripple && is_rounding(*ripple);
+    const auto fast_bound = modes.fast_mode_bound(omega);
+    return fast_bound && is_rounding(*fast_bound);
   };
   double from = load_rate_, to = all;
   if (is_rounding_above(from)) return from;

@@ -25,8 +25,8 @@ struct FormNorm {
 };
 /// Norms of a linear output, computed with the engine's modes.
 [[nodiscard]] FormNorm form_norm_of(const engine::FastModes& modes, const Output& linear);
-/// Upper bound of the contribution of fast motion (`ripple`) to a linear output, in the output's unit.
-[[nodiscard]] double fast_mode_contribution(const engine::FastModeBound& ripple, const FormNorm& reach,
+/// Upper bound of the contribution of fast motion (`fast_bound`) to a linear output, in the output's unit.
+[[nodiscard]] double fast_mode_contribution(const engine::FastModeBound& fast_bound, const FormNorm& reach,
                                             const Output& linear, const ForceLayout& layout);
 
 /// Highest frequencies of motion and loads in the steps of a run. All rates are in rad per time.

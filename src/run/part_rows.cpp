@@ -43,10 +43,17 @@ PartRows::PartRows(const Model& whole, const std::vector<assembly::PartModel>& p
       order_(whole, report) {}
 
 std::size_t PartRows::forward(double t, bool last) {
-  const std::size_t events = forward_events(t, last);
-  forward_rows(t, &PartRecorder::rows, &Recorder::sample);
-  forward_rows(t, &PartRecorder::frames, &Recorder::frame);
-  energy_sum_.take(energy_lines_, t);
+  std::size_t events = 0;
+  while (!stopped_at_ && complete(t, &PartRecorder::rows)) {
+    const double at = recorders_.front()->rows.front().t;
+    events += forward_events(at, true);
+    forward_row(&PartRecorder::rows, &Recorder::sample);
+    if (!recorder_.progress(at)) stopped_at_ = at;
+  }
+  if (!stopped_at_) events += forward_events(t, last);
+  const double end = stopped_at_.value_or(t);
+  while (complete(end, &PartRecorder::frames)) forward_row(&PartRecorder::frames, &Recorder::frame);
+  energy_sum_.take(energy_lines_, end);
   return events;
 }
 
@@ -73,33 +80,32 @@ std::size_t PartRows::forward_events(double t, bool last) {
   return all.size();
 }
 
-void PartRows::forward_rows(double t, Rows rows, void (Recorder::*to)(const Sample&)) {
-  const auto complete = [&] {
-    return std::all_of(recorders_.begin(), recorders_.end(), [&](PartRecorder* part) {
-      return !(part->*rows).empty() && (part->*rows).front().t <= t;
-    });
-  };
+bool PartRows::complete(double t, Rows rows) const {
+  return std::all_of(recorders_.begin(), recorders_.end(), [&](PartRecorder* part) {
+    return !(part->*rows).empty() && (part->*rows).front().t <= t;
+  });
+}
+
+void PartRows::forward_row(Rows rows, void (Recorder::*to)(const Sample&)) {
   Vector u(whole_.size()), v(whole_.size());
-  while (complete()) {
-    Sample sample;
-    sample.t = (recorders_.front()->*rows).front().t;
-    sample.u = &u;
-    sample.v = &v;
-    sample.contacts.resize(whole_.contacts.size());
-    for (std::size_t i = 0; i < recorders_.size(); ++i) {
-      const PartRecorder::Row& row = (recorders_[i]->*rows).front();
-      const assembly::PartModel& part = parts_[i];
-      for (std::size_t j = 0; j < part.dofs.size(); ++j) {
-        u[part.dofs[j]] = row.u[static_cast<Eigen::Index>(j)];
-        v[part.dofs[j]] = row.v[static_cast<Eigen::Index>(j)];
-      }
-      for (std::size_t k = 0; k < part.contacts.size(); ++k)
-        sample.contacts[part.contacts[k]] = row.contacts[k];
-      add_to(sample.energy, row.energy);
-      (recorders_[i]->*rows).pop_front();
+  Sample sample;
+  sample.t = (recorders_.front()->*rows).front().t;
+  sample.u = &u;
+  sample.v = &v;
+  sample.contacts.resize(whole_.contacts.size());
+  for (std::size_t i = 0; i < recorders_.size(); ++i) {
+    const PartRecorder::Row& row = (recorders_[i]->*rows).front();
+    const assembly::PartModel& part = parts_[i];
+    for (std::size_t j = 0; j < part.dofs.size(); ++j) {
+      u[part.dofs[j]] = row.u[static_cast<Eigen::Index>(j)];
+      v[part.dofs[j]] = row.v[static_cast<Eigen::Index>(j)];
     }
-    (recorder_.*to)(sample);
+    for (std::size_t k = 0; k < part.contacts.size(); ++k)
+      sample.contacts[part.contacts[k]] = row.contacts[k];
+    add_to(sample.energy, row.energy);
+    (recorders_[i]->*rows).pop_front();
   }
+  (recorder_.*to)(sample);
 }
 
 void PartRows::forward_motion(double t, const std::vector<PartRecorder*>& from) {

@@ -135,8 +135,11 @@ class PartRows {
     energy_lines_.push_back(&recorder.energy_rows);
   }
   /// Forwards rows up to t and events before t; with `last` also events at t. Returns the number of these events; a jump of
-  /// a load that several parts recorded is forwarded once, but included several times in this number.
+  /// a load that several parts recorded is forwarded once, but included several times in this number. If the recorder ends
+  /// the run after a row, nothing after this row is forwarded.
   std::size_t forward(double t, bool last = false);
+  /// Time of the row after which the recorder ended the run.
+  [[nodiscard]] const std::optional<double>& stopped_at() const { return stopped_at_; }
   /// Ends the merge, after the last event.
   void finish() { order_.finish(); }
   /// Forwards the picture data of a run that ended at t. Called once. from: recorders in the order of the parts.
@@ -145,7 +148,9 @@ class PartRows {
  private:
   using Rows = std::deque<PartRecorder::Row> PartRecorder::*;
   std::size_t forward_events(double t, bool last);
-  void forward_rows(double t, Rows rows, void (Recorder::*to)(const Sample&));
+  /// True if all parts have a row at a time up to t.
+  [[nodiscard]] bool complete(double t, Rows rows) const;
+  void forward_row(Rows rows, void (Recorder::*to)(const Sample&));
   [[nodiscard]] Curves displacements_of(const std::vector<PartRecorder*>& from) const;
 
   const Model& whole_;
@@ -156,6 +161,7 @@ class PartRows {
   std::vector<EnergyLine*> energy_lines_;
   EnergySum energy_sum_;
   EventOrder order_;
+  std::optional<double> stopped_at_;
   double last_load_jump_ = -1.0;  // time of the last jump of a load
 };
 

@@ -1,5 +1,6 @@
 #include "run/run_record.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -72,16 +73,19 @@ void RunRecord::begin(const RunInstant& start) {
 
 void RunRecord::step(const RunStep& step) {
   condition_ = step.facts.eigenvector_condition;
-  const double begin = step.step.begin, end = step.step.end;
+  const double begin = step.step.begin;
   works_.clear();
-  step.motion.integrate(begin, end, works_);
+  step.motion.integrate(begin, step.step.end, works_);
   auditor_.add(works_);
-  rows(step);
+  const double end = rows(step);
   response_.search_step(step.motion, begin, end);
   const bool each_alone =
       step.facts.contact_turning_points != nullptr && !motion_.enabled() && !curves_.enabled();
-  motion_.step(begin, end, each_alone ? std::span<const double>() : step.facts.turning_points);
-  if (each_alone) turns(step);
+  std::span<const double> turning_points = step.facts.turning_points;
+  const auto inside = std::upper_bound(turning_points.begin(), turning_points.end(), end);
+  turning_points = turning_points.first(static_cast<std::size_t>(inside - turning_points.begin()));
+  motion_.step(begin, end, each_alone ? std::span<const double>() : turning_points);
+  if (each_alone) turns(step, end);
   const contact::ContactStates& states = step.decision.states;
   while (const auto moment = motion_.next()) {
     const double t = moment->t;
@@ -95,8 +99,9 @@ void RunRecord::step(const RunStep& step) {
   }
 }
 
-/// Records the rows requested inside a step.
-void RunRecord::rows(const RunStep& step) {
+/// Records the rows requested inside a step. Returns the end of the step, or the time of the row at which the recorder ends
+/// the run: nothing after this row is recorded, however long the step is.
+double RunRecord::rows(const RunStep& step) {
   for (double t = samples_.next(); t < step.step.end; t = samples_.next()) {
     motion::Point point;
     step.motion.evaluate(t, point);
@@ -104,7 +109,13 @@ void RunRecord::rows(const RunStep& step) {
     step.motion.integrate(t, step.step.end, works_);
     row(step, t, point);
     law_checker_.observe(t, step.forcing, point);
+    if (recorder_.progress(t)) continue;
+    works_.reverse();  // the work after this row, which the auditor has received already
+    auditor_.add(works_);
+    stopped_at_ = t;
+    return t;
   }
+  return step.step.end;
 }
 
 /// Records a row at t. Before the call, works_ must contain the work from t to the end of the step.
@@ -120,9 +131,9 @@ void RunRecord::row(const RunStep& step, double t, motion::Point& point) {
 }
 
 /// Audits each contact at its own turning points; used if no motion is drawn.
-void RunRecord::turns(const RunStep& step) {
+void RunRecord::turns(const RunStep& step, double end) {
   for (const events::TurningPointDetector::TurningPoint& turn : *step.facts.contact_turning_points) {
-    if (!std::isfinite(turn.time) || turn.time > step.step.end) continue;
+    if (!std::isfinite(turn.time) || turn.time > end) continue;
     const std::size_t contact = turn.contact();
     step.motion.evaluate_watched(turn.time, contact, point_);
     if (records_interior_peaks())

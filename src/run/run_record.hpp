@@ -8,6 +8,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "run/audit.hpp"
 #include "run/curve_record.hpp"
@@ -48,6 +49,8 @@ class RunRecord final : public RunListener {
   [[nodiscard]] Sample sample(const RunPoint& point);
   /// Message about the first unexplained violation of a law, after which the run must end; empty: no such violation.
   [[nodiscard]] const std::string& law_violated() const { return law_checker_.unexplained(); }
+  /// Time of the row inside the last step at which the recorder ended the run.
+  [[nodiscard]] const std::optional<double>& stopped_at() const { return stopped_at_; }
   /// Energy after the last decision.
   [[nodiscard]] const Energy& energy() const { return last_energy_; }
   /// True if the points just before instants must contain accelerations, because the model has outputs.
@@ -58,9 +61,9 @@ class RunRecord final : public RunListener {
   [[nodiscard]] bool records_interior_peaks() const {
     return faults_ == nullptr || !faults_->skips_interior_peaks();
   }
-  void rows(const RunStep& step);
+  [[nodiscard]] double rows(const RunStep& step);
   void row(const RunStep& step, double t, motion::Point& point);
-  void turns(const RunStep& step);
+  void turns(const RunStep& step, double end);
   void add_curves(double t, const contact::ContactStates& states, const motion::Point& point,
                   const RunStep* step = nullptr);
   void after(const RunInstant& instant, const std::optional<std::vector<std::size_t>>& changed);
@@ -84,7 +87,8 @@ class RunRecord final : public RunListener {
   motion::Point point_;  // buffer for points inside a step
   motion::WorkIntegrals works_;
   Energy last_energy_;
-  double condition_ = 1.0;     // StepFacts::eigenvector_condition of the last step
+  double condition_ = 1.0;  // StepFacts::eigenvector_condition of the last step
+  std::optional<double> stopped_at_;
   bool residual_due_ = false;  // a row was written: audit the residual at the end of its step
 };
 

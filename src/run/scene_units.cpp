@@ -48,6 +48,7 @@ class ToScene {
     (*this)(unit::force, a.equilibrium);
     (*this)(unit::length, a.penetration);
     (*this)(unit::energy, a.energy);
+    (*this)(unit::force, a.at_limit);
     if (a.reactions) (*this)(unit::force, *a.reactions);
     (*this)(unit::length, {&a.length_scale});
     (*this)(unit::force, {&a.force_scale});

@@ -117,12 +117,11 @@ std::string limit_warning(const Model& model, const decide::ContactAtLimit& foun
   const Contact& c = model.contacts[found.contact];
   return fmt::format(
       "contact '{}' sticks at its friction limit from t = {:.9g} on: the required force is {:.2g} {} {} the "
-      "limit, and its rounding error is {:.2g} {}, so stick and slip cannot be distinguished{}; the contact "
-      "is treated as sticking",
+      "limit, and its rounding error is {:.2g} {}, so stick and slip cannot be distinguished, although "
+      "friction drops at the start of slip; the contact is treated as sticking",
       c.name, t, model::in_scene_units(model, std::abs(found.margin), unit::force), model.units.force,
       found.margin < 0.0 ? "above" : "below", model::in_scene_units(model, found.noise, unit::force),
-      model.units.force,
-      c.friction.has_static_drop() ? ", although friction drops at the start of slip" : "");
+      model.units.force);
 }
 
 }  // namespace
@@ -137,7 +136,8 @@ void DecisionWarnings::add(double t, const decide::Decision& decision, std::vect
       shared_motion_reported_ = true;
     }
   for (const decide::ContactAtLimit& found : decision.at_limit)
-    if (++at_limit_ <= max_warnings_of_a_kind) warnings.push_back(limit_warning(model_, found, at));
+    if (model_.contacts[found.contact].friction.has_static_drop() && ++at_limit_ <= max_warnings_of_a_kind)
+      warnings.push_back(limit_warning(model_, found, at));
   if (decision.impact_gains_energy && ++gains_ <= max_warnings_of_a_kind)
     warnings.push_back(impact_gain(at, model::in_scene_units(model_, -decision.impact_loss, unit::energy)));
 }

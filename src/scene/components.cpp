@@ -13,7 +13,7 @@ std::string node_name(Table& contact, const toml::node& item, const NameScope& s
                       const std::string& node) {
   if (!item.is_string()) contact.wrong(against_key, describe_type(*find_key("contacts[]", against_key)));
   const std::string name = item.as_string()->get();
-  check_known(name, space.names, "node", place_of(item), contact.path(against_key));
+  check_node(name, space, place_of(item), contact.path(against_key));
   if (name == node) contact.wrong(against_key, "a node other than the contact's own node");
   return name;
 }

@@ -1,6 +1,5 @@
 #include "scene/quantities.hpp"
 
-#include "contact/law/user_law.hpp"
 #include "scene/components.hpp"
 #include "scene/saved_state.hpp"
 
@@ -56,6 +55,7 @@ void visit_initial(InitialSpec& initial, const Visit& visit) {
   for (double& v : initial.v) visit(v, velocity);
   for (InitialSpec::Component& c : initial.components) visit(c.value, motion_named(c.component).unit());
   if (!initial.saved) return;
+  visit(initial.saved->t, time);
   for (auto& [name, value] : initial.saved->motions)
     visit(value, name == saved_alpha ? rate : motion_named(name).unit());
   for (auto& [name, shear] : initial.saved->shears) visit(shear, force);
@@ -149,7 +149,8 @@ void visit_contact(ContactSpec& c, const Visit& visit) {
   visit_history(c.surface_velocity, velocity, visit);
   visit(c.initial_shear, force);
   visit_optional(c.capture_velocity, velocity, visit);
-  if (c.user_law) c.user_law = visit_law_constants(*c.user_law, visit);
+  if (!c.user_law) return;
+  if (auto law = (*c.user_law)->with_constants(visit)) c.user_law = std::move(law);
 }
 
 /// Exponent of length in a load's amplitude: force times length to this power.

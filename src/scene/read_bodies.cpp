@@ -85,9 +85,12 @@ PlaneMesh read_mesh_file(Table& table, const Scene& scene) {
     std::vector<std::string> there;
     for (const PlaneMesh::Group& group : mesh.groups) there.push_back(group.name);
     if (std::find(there.begin(), there.end(), wanted) != there.end()) continue;
-    table.fail("groups",
-               fmt::format("{} has no physical curve or point \"{}\" on this body; known: {}", path.string(),
-                           wanted, there.empty() ? "none" : base::join_quoted(there, 8)));
+    table.fail(
+        "groups",
+        fmt::format("{} has no physical curve or point \"{}\" on this body{}", path.string(), wanted,
+                    there.empty() ? "; it has none at all: in Gmsh, write for example Physical Curve(\"" +
+                                        wanted + "\") = {1}"
+                                  : base::suggestion(wanted, there)));
   }
   return mesh;
 }
@@ -200,15 +203,11 @@ void read_bodies(Table& top, Scene& scene, ResolvedScene& record) {
 
 BoundaryRef find_boundary(const Table& table, std::string_view key, const std::string& name,
                           const Scene& scene) {
-  std::vector<std::string> there;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    for (const PlaneMesh::Group& group : scene.bodies[b].mesh.groups) {
-      if (group.edges.empty()) continue;
-      there.push_back(scene.bodies[b].name + "." + group.name);
-      if (there.back() == name) return {b, &group};
-    }
-  table.fail(key, fmt::format("no boundary is named \"{}\"; known: {}", name,
-                              there.empty() ? "none" : base::join_quoted(there, 8)));
+    for (const PlaneMesh::Group& group : scene.bodies[b].mesh.groups)
+      if (!group.edges.empty() && scene.bodies[b].name + "." + group.name == name) return {b, &group};
+  table.fail(key,
+             fmt::format("no boundary is named \"{}\"{}", name, groups_of_bodies_text(name, scene, true)));
 }
 
 }  // namespace signorini::scene

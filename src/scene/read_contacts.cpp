@@ -268,7 +268,8 @@ ContactSpec read_laws(Table& table, const NameScope& space, const Scene& scene, 
       break;
   }
   if (!contact.capabilities().takes_impulses) read_elements(table, contact);
-  contact.surface_velocity = read_number_or_history(table, "surface_velocity", scene);
+  contact.surface_velocity =
+      read_number_or_history(table, "surface_velocity", scene, RecordQuantity::velocity);
   return contact;
 }
 
@@ -491,6 +492,7 @@ void read_pendulums(Table& top, Scene& scene, ResolvedScene& record) {
     spring.against = against;
     spring.direction = contact.tangent->vector;
     spring.stiffness = carried / radius;
+    spring.restoring = true;
     if (spring.stiffness > 0.0) scene.springs.push_back(spring);
     add_contact(table, contact, names, scene);
     read_rim(table, contact, names, scene);

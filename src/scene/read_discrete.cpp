@@ -168,8 +168,10 @@ void read_support_motion(Table& table, Support& support, std::size_t held, const
             held));
   if (acceleration && support.rz)
     table.fail("acceleration", "has no meaning for the rotation rz; give motion instead");
-  support.motion =
-      acceleration ? read_acceleration(table, key, scene) : read_number_or_history(table, key, scene);
+  support.motion = read_number_or_history(table, key, scene,
+                                          acceleration ? RecordQuantity::acceleration
+                                          : support.rz ? RecordQuantity::none
+                                                       : RecordQuantity::displacement);
   support.motion_is_acceleration = acceleration;
 }
 

@@ -35,7 +35,7 @@ void read_nodes_state(Table& table, InitialSpec& initial, const NameScope& space
   for (const Entry& entry : entries_of(table.node())) {
     const auto group = space.groups.find(entry.name);
     if (group == space.groups.end())
-      check_known(entry.name, space.names, "node", entry.place(), table.path(entry.name));
+      check_node(entry.name, space, entry.place(), table.path(entry.name), true);
     const toml::node* node = table.raw(entry.name);
     if (!node->is_table()) table.wrong(entry.name, "a table { ux = ..., vx = ... }");
     Table state(node->as_table(), "run.initial.*", table.path(entry.name), place_of(*node));
@@ -132,9 +132,11 @@ void read_from_run(Table& run, InitialSpec& initial, const Scene& scene) {
   Table table = run.child("initial");
   const std::string name = table.text("run");
   const std::filesystem::path directory = directory_of(scene) / name, path = directory / "states.csv";
-  if (name.empty()) table.wrong("run", "the directory of a run");
+  if (name.empty() || name.find('\0') != std::string::npos) table.wrong("run", "the directory of a run");
   if (std::error_code ignored; !std::filesystem::is_directory(directory, ignored))
-    refuse_file(table, "run", directory, "not a directory; give the directory of a run");
+    refuse_file(table, "run", directory,
+                std::filesystem::exists(directory, ignored) ? "not a directory; give the directory of a run"
+                                                            : "there is no such directory");
   base::Json model;
   try {
     base::check_run_files(directory,

@@ -19,6 +19,11 @@ NameScope name_scope(const Scene& scene) {
   } else {
     for (const Node& node : scene.nodes) space.names.add(node.name);
     for (const BodySpec& body : scene.bodies) {
+      NameScope::Body& known = space.bodies.emplace_back();
+      known.name = body.name;
+      const std::string& file = scene.nodes[body.first_node].place.file;  // of a mesh from a file: that file
+      if (file != body.place.file) known.mesh = file;
+      for (const PlaneMesh::Group& group : body.mesh.groups) known.groups.push_back(group.name);
       for (const PlaneMesh::Group& group : body.mesh.groups)
         for (const int n : group.nodes)
           space.groups[body.name + "." + group.name].push_back(scene.nodes[static_cast<std::size_t>(n)].name);
@@ -42,7 +47,7 @@ std::array<double, 2> read_unit_vector(Table& table, std::string_view key) {
 
 std::string read_node(Table& table, std::string_view key, const NameScope& space) {
   const std::string name = table.text(key);
-  check_known(name, space.names, "node", table.place(key), table.path(key));
+  check_node(name, space, table.place(key), table.path(key));
   return name;
 }
 
@@ -69,7 +74,7 @@ void add_range(const std::string& text, const Table& table, std::string_view key
                                 text));
   for (long long i = from; i <= to; i += *step) {
     names.push_back(fmt::format("{}{}", first, i));
-    check_known(names.back(), space.names, "node", table.place(key), table.path(key));
+    check_node(names.back(), space, table.place(key), table.path(key));
   }
 }
 
@@ -85,7 +90,7 @@ std::vector<std::string> read_node_names(Table& table, std::string_view key, con
     } else if (const auto group = space.groups.find(text); group != space.groups.end()) {
       names.insert(names.end(), group->second.begin(), group->second.end());
     } else {
-      check_known(text, space.names, "node", table.place(key), table.path(key));
+      check_node(text, space, table.place(key), table.path(key), true);
       names.push_back(text);
     }
   }

@@ -37,8 +37,7 @@ std::vector<std::string> read_places(Table& table, std::size_t count, const char
 }
 
 void check_nodes(const Table& table, const std::vector<std::string>& names, const NameScope& space) {
-  for (const std::string& name : names)
-    check_known(name, space.names, "node", table.place("at"), table.path("at"));
+  for (const std::string& name : names) check_node(name, space, table.place("at"), table.path("at"));
 }
 
 /// Reads the component of a motion: along a direction, or the rotation.
@@ -172,8 +171,7 @@ void read_spring(Table& table, OutputSpec& output, const Scene& scene) {
 /// Reads a stress component at a node of a body; `direction` is the axis x of the component.
 void read_body_stress(Table& table, OutputSpec& output, const Scene& scene, const NameScope& space) {
   output.at = read_places(table, 1, "the name of a node");
-  const std::size_t node =
-      check_known(output.at[0], space.names, "node", table.place("at"), table.path("at"));
+  const std::size_t node = check_node(output.at[0], space, table.place("at"), table.path("at"));
   if (!body_of_node(scene, node))
     table.fail("at",
                fmt::format("node \"{}\" belongs to no body: expected a node of a body, or two nodes [A, B] "

@@ -179,7 +179,8 @@ SeamLaw read_seam_law(Table& table, const Scene& scene) {
     read_springs_of(table, law);
   }
   law.gap = table.optional_number("gap");
-  contact.surface_velocity = read_number_or_history(table, "surface_velocity", scene);
+  contact.surface_velocity =
+      read_number_or_history(table, "surface_velocity", scene, RecordQuantity::velocity);
   return law;
 }
 

@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "scene/record_header.hpp"
 #include "scene/resolved_scene.hpp"
 #include "scene/table.hpp"
 #include "signorini/scene.hpp"
@@ -22,6 +23,12 @@ struct NameScope {
   Names names;
   std::unordered_map<std::string, std::vector<std::string>> groups;  ///< nodes of "BODY.GROUP" and of "BODY"
   std::filesystem::path directory;                                   ///< directory of relative file names
+  /// A body, for messages about names that are not known.
+  struct Body {
+    std::string name, mesh;           ///< mesh: the file; empty for a rectangle or a ring
+    std::vector<std::string> groups;  ///< without the name of the body
+  };
+  std::vector<Body> bodies;
 };
 /// Names in the part of the scene that has been read so far.
 [[nodiscard]] NameScope name_scope(const Scene& scene);
@@ -61,6 +68,14 @@ void read_loads(Table& top, Scene& scene, ResolvedScene& record);
 void read_outputs(Table& top, Scene& scene, ResolvedScene& record);
 void read_base_motion(Table& top, Scene& scene, ResolvedScene& record);
 
+/// Index of the node with this name. Errors: SceneError that suggests a node, or a group if `groups` says that the key
+/// takes groups, too.
+std::size_t check_node(const std::string& name, const NameScope& space, const SourcePlace& place,
+                       const std::string& path, bool groups = false);
+/// Text for the end of a message about an unknown group "BODY.GROUP": "; did you mean ...?", or the groups there are, or how
+/// groups arise. `edges`: only groups with edges.
+[[nodiscard]] std::string groups_of_bodies_text(const std::string& name, const Scene& scene, bool edges);
+
 /// Reads a vector [x, y] and normalises it.
 [[nodiscard]] std::array<double, 2> read_unit_vector(Table& table, std::string_view key);
 /// Reads the name of an existing node; the key is required.
@@ -89,10 +104,10 @@ struct BoundaryRef {
 /// Reads the history of a load, with offset 0 and amplitude 1. The scene provides the directory of files, t_end and
 /// the units.
 [[nodiscard]] HistorySpec read_load_history(Table& table, std::string_view key, const Scene& scene);
-/// Reads a history that has its own offset and amplitude, or a number. An absent key gives its default, or zero.
-[[nodiscard]] HistorySpec read_number_or_history(Table& table, std::string_view key, const Scene& scene);
-/// Reads as read_number_or_history() does; the values may be in units of g.
-[[nodiscard]] HistorySpec read_acceleration(Table& table, std::string_view key, const Scene& scene);
+/// Reads a history that has its own offset and amplitude, or a number. An absent key gives its default, or zero. With a
+/// quantity the values may come from a record of this quantity, or have a `unit`.
+[[nodiscard]] HistorySpec read_number_or_history(Table& table, std::string_view key, const Scene& scene,
+                                                 RecordQuantity quantity = RecordQuantity::none);
 [[nodiscard]] HistorySpec constant_history(double value);
 
 // Readers shared by the tables that make contacts: [[contacts]], [[stops]], [[pendulums]].

@@ -194,7 +194,7 @@ double DiscreteRun::end_of(std::size_t p, const run::RunStep& step, const Ends& 
   const ContactMotion m = motion::motion_of(model_.contacts[c], c, step.forcing, ends.to.t, ends.to.point);
   const auto guard = [&](double Dt) {
     const NodeDerivative moved = advance(p, step.forcing, ends, Dt);
-    return forms[i].form.rate(along(p, c, step.forcing, ends.to, moved, ends.forcing)) + by.value(m);
+    return forms[i].rate(m, along(p, c, step.forcing, ends.to, moved, ends.forcing)) + by.value(m);
   };
   const double h = ends.to.t - ends.from.t;
   const double standing = guard(ends.moved.t), rate = (guard(ends.moved.t + h) - standing) / h;

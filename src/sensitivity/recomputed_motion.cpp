@@ -79,7 +79,7 @@ std::optional<double> RecomputedMotion::time_of(const run::RunInstant& instant, 
     const SeriesPoint point = at(t);
     const ContactMotion m =
         motion_of(model_.contacts[triggered.contact], triggered.contact, *forcing_, t, point);
-    const double rate = guard->parameter_derivative(m, time_rate(model_.layout, triggered.contact, m, point));
+    const double rate = guard->rate(m, time_rate(model_.layout, triggered.contact, m, point));
     if (!(rate < 0.0)) return std::nullopt;
     const double off = -guard->value(m) / rate;
     if (!(t + off > now_.jet.t)) return std::nullopt;

@@ -146,9 +146,8 @@ std::optional<double> TangentEvents::time_of(PassState& course, std::size_t c) c
   const bool hit = !now.after.impulses.empty() && now.after.impulses[c].hit;
   // The guard is not zero just before the instant, so another contact has changed the state of this contact.
   if (!fired && !hit && std::abs(value) > 4.0 * crossing.noise) return std::nullopt;
-  const double rate =
-      fired ? crossing.derivatives[0]
-            : crossing.form.parameter_derivative(course.m.motion_before[c], course.m.rate_before[c]);
+  const double rate = fired ? crossing.derivatives[0]
+                            : crossing.form.rate(course.m.motion_before[c], course.m.rate_before[c]);
   if (!(rate < 0.0) || rate * rate <= grazes * 2.0 * std::abs(crossing.derivatives[1]) * crossing.noise) {
     if (crosses_grazes_ && is_smooth(course) && !sets_moving_anchor(course, c)) return std::nullopt;
     course.stop(fmt::format(
@@ -161,7 +160,7 @@ std::optional<double> TangentEvents::time_of(PassState& course, std::size_t c) c
   const Form& form_rate =
       derivative_.contacts[c].guards[index_of(state.state)][static_cast<std::size_t>(guard - forms.begin())];
   const double moved = form_rate.value(course.m.motion_before[c]) +
-                       crossing.form.parameter_derivative(course.m.motion_before[c], course.p_before[c]);
+                       crossing.form.rate(course.m.motion_before[c], course.p_before[c]);
   return -moved / rate;
 }
 

@@ -324,6 +324,7 @@ TEST_CASE("an interrupted run has rows and events up to a time that all parts ha
   CHECK(outcome.t < 2.0);
   REQUIRE(!recorder.rows.empty());
   CHECK(recorder.rows.back().t <= outcome.t);
+  CHECK(recorder.rows.back().t <= 1.0 + 1e-12);  // the row at which progress() ends the run is the last
   CHECK(recorder.rows.back().t > outcome.t - 0.01 * (1.0 + 1e-9));
   for (const Event& event : recorder.events) CHECK(event.t <= outcome.t);
   CHECK(std::is_sorted(recorder.events.begin(), recorder.events.end(),

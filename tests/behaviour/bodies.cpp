@@ -246,7 +246,7 @@ plane = "stress"
       CHECK(said.find(message) != std::string::npos);
     }
   };
-  refused("[[loads]]\ngroup = \"b.up\"\npressure = 1.0\n", "no boundary is named \"b.up\"; known:");
+  refused("[[loads]]\ngroup = \"b.up\"\npressure = 1.0\n", "no boundary is named \"b.up\"; known: b.");
   refused("[[seams]]\nname = \"s\"\nslave = \"b.left\"\nmaster = \"b.right\"\nlaw = \"rigid\"\n",
           "the master faces no part of the slave boundary");
   refused(

@@ -8,6 +8,7 @@
 
 #include "behaviour/orbit_scenes.hpp"
 #include "run/engines.hpp"
+#include "signorini/modified_law.hpp"
 #include "signorini/sensitivity.hpp"
 #include "signorini/simulate.hpp"
 
@@ -30,6 +31,33 @@ Scene spread_out(Scene scene) {
 
 SceneReader spread_out(const SceneReader& read) {
   return [read](const std::vector<Override>& changes) { return spread_out(read(changes)); };
+}
+
+/// The compliant law without a place for T.
+class FrictionlessLaw final : public ModifiedLaw {
+ public:
+  FrictionlessLaw() : ModifiedLaw(Law::compliant, true, 0) {}
+};
+
+/// Removes the friction of every second compliant contact, the first one included; returns the number of these contacts.
+std::size_t make_frictionless(Scene& scene) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < scene.contacts.size(); k += 2) {
+    ContactSpec& contact = scene.contacts[k];
+    if (contact.law != Law::compliant || contact.pendulum_surface) continue;
+    contact.friction = {};
+    contact.tangential_stiffness.reset();
+    contact.initial_shear = contact.tangential_damping = 0.0;
+    ++count;
+  }
+  return count;
+}
+
+Scene without_tangents(Scene scene) {
+  const auto law = std::make_shared<FrictionlessLaw>();
+  for (ContactSpec& contact : scene.contacts)
+    if (contact.law == Law::compliant && !contact.friction.any()) contact.user_law = law;
+  return scene;
 }
 
 struct Case {
@@ -125,6 +153,19 @@ TEST_CASE(
   CHECK(part.normal(1) == 4);
   CHECK(part.guard(1) == 3);
   CHECK(part.tangents(0) == 2);
+  // All contacts without a tangential force share the place after all others.
+  const ForceLayout some({{0, 1, 0, 0}, {1, 3, 1, 0}, {0, 1, 0, 0}}), one = some.part({1}),
+                                                                      two = some.part({2, 1});
+  CHECK(some.size() == 1 + 3 + 1 + 1);
+  CHECK(some.tangent(0) == 5);
+  CHECK(some.tangent(1) == 2);
+  CHECK(some.tangent(2) == 5);
+  CHECK_FALSE(some.is_used(5));
+  CHECK(some.is_used(4));
+  CHECK_FALSE(some.is_normal(5));
+  CHECK(one.size() == 3);
+  CHECK(two.tangent(0) == 4);
+  CHECK(two.size() == 5);
   CHECK(ForceLayout().size() == 0);
   CHECK(ForceLayout().guard_count() == 0);
 }
@@ -155,6 +196,47 @@ TEST_CASE("Results do not depend on where forces and guards stand") {
     }
   CHECK(runs >= 15);
   CHECK(events >= 100);
+}
+
+TEST_CASE("A contact without a place for T moves as one without friction") {
+  int runs = 0;
+  std::size_t events = 0, contacts = 0;
+  std::vector<Scene> scenes;
+  for (const Case& c : cases) scenes.push_back(read_scene(c.file, c.changes));
+  scenes.push_back(reader_of_text(between_stops())({}));
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    Scene& scene = scenes[i];
+    const std::size_t frictionless = make_frictionless(scene);
+    if (frictionless == 0) continue;
+    contacts += frictionless;
+    const Scene lean = without_tangents(scene);
+    CHECK(build_model(lean).force_count() ==
+          build_model(scene).force_count() + 1 - static_cast<Eigen::Index>(frictionless));
+    for (const Engine engine : {Engine::exact, Engine::ida, Engine::newmark}) {
+      CAPTURE(i);
+      CAPTURE(std::string(to_string(engine)));
+      const auto is = run_with(scene, engine), without = run_with(lean, engine);
+      REQUIRE(is.has_value() == without.has_value());
+      if (!is) continue;
+      ++runs;
+      CHECK(without->report.outcome.kind == is->report.outcome.kind);
+      CHECK(without->report.law_checks.violated == is->report.law_checks.violated);
+      const double near = (engine == Engine::ida ? 1e2 * scene.run.rtol : 1e-9) * scene.run.t_end;
+      REQUIRE(without->result.events.size() == is->result.events.size());
+      events += is->result.events.size();
+      for (std::size_t e = 0; e < is->result.events.size(); ++e) {
+        const Event &a = is->result.events[e], &b = without->result.events[e];
+        CHECK(b.type == a.type);
+        CHECK(b.contact == a.contact);
+        CHECK(std::abs(b.t - a.t) <= near);
+      }
+      CHECK((without->result.rows.back().u - is->result.rows.back().u).norm() <=
+            near * (1.0 + is->result.rows.back().v.norm()));
+    }
+  }
+  CHECK(contacts >= 4);
+  CHECK(runs >= 6);
+  CHECK(events >= 30);
 }
 
 TEST_CASE("The contacts of a spread model stand where the scene puts them") {

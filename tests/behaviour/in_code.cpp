@@ -1,5 +1,6 @@
 // Runs that no scene file can ask for: functions as loads, user-defined laws, loads that are changed on the way.
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 
 #include <cmath>
 
@@ -236,6 +237,51 @@ TEST_CASE("what is asked to be certified is steered all the same, and has no cer
   CHECK(run.reason == "loads change during the run through an observer, which a companion run cannot follow");
   // 3 m/s^2 for 0.5 s, then friction alone takes the 1.5 m/s, at 3 m/s^2
   CHECK(hand.rows.back().u[0] == doctest::Approx(0.375 + 0.375).epsilon(1e-12));
+}
+
+TEST_CASE(
+    "a run that its observer stops at a row or at an event has no later row, whatever the engine's steps") {
+  // A mass swings on a spring between two stops that it reaches at t = 1 and every pi after: the steps of exact reach from hit
+  // to hit.
+  const auto scene = [](const char* engine) {
+    return parse_scene(
+        fmt::format(
+            "schema = 1\nunits = {{ force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }}\n"
+            "[run]\nt_end = 9.0\noutput_dt = 0.05\nengine = \"{}\"\ninitial = {{ A = {{ vx = 1.0 }} }}\n"
+            "[nodes]\nA = [0.0, 0.0]\n[[masses]]\nnode = \"A\"\nmass = 1.0\n[[supports]]\nnode = "
+            "\"A\"\nfix = [\"uy\"]\n[[springs]]\nnode = \"A\"\ndirection = [1.0, 0.0]\nstiffness = "
+            "1.0\n[[contacts]]\nname = \"stop\"\nnode = \"A\"\nlaw = \"rigid\"\nnormal = [-1.0, "
+            "0.0]\ngap = {:.17g}\nrestitution = 1.0\n",
+            engine, std::sin(1.0)),
+        "test.toml");
+  };
+  struct Observer final : Result {
+    double last = 1e9;        // ends the run at this time
+    std::size_t hits = 1000;  // or after so many events
+    bool progress(double t) override { return t < last && events.size() < hits; }
+  };
+  for (const char* engine : {"exact", "ida"}) {
+    CAPTURE(engine);
+    const Scene of = scene(engine);
+    const Model model = build_model(of);
+    Observer by_time;
+    by_time.last = 2.55;
+    by_time.report = simulate(model, of.run, by_time);
+    CHECK(by_time.report.outcome.kind == Outcome::Kind::interrupted);
+    CHECK(by_time.report.outcome.t <= 2.55 + 1e-9);
+    REQUIRE(!by_time.rows.empty());
+    CHECK(by_time.rows.back().t == doctest::Approx(2.55).epsilon(1e-12));
+    // The audit ends with the run: energies of the row and of the end are equal.
+    CHECK(by_time.report.audit.energy.value < 1e-6);
+    Observer by_event;
+    by_event.hits = 1;
+    by_event.report = simulate(model, of.run, by_event);
+    CHECK(by_event.report.outcome.kind == Outcome::Kind::interrupted);
+    CHECK(by_event.report.outcome.t == doctest::Approx(1.0).epsilon(1e-6));
+    REQUIRE(!by_event.rows.empty());
+    CHECK(by_event.rows.back().t <= 1.0 + 1e-6);
+    CHECK(by_event.events.size() == 1);
+  }
 }
 
 TEST_CASE("a change at the start, a history that goes on changing, and a stop") {

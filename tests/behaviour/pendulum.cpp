@@ -106,6 +106,46 @@ TEST_CASE("a pendulum without friction swings with the period 2 pi sqrt(R/g), wh
   }
 }
 
+TEST_CASE("damping beta acts on the springs of a structure, not on the restoring force of its pendulums") {
+  Bearing b;
+  b.friction = "0.0";
+  const double period = 2.0 * pi * std::sqrt(b.R / g), beta = 0.2;
+  b.t_end = 3.0 * period;
+  const std::string damped = fmt::format("[damping]\nbeta = {}\n", beta);
+  // Beside a spring k: m u'' + beta k u' + (k + m g / R) u = 0.
+  const double k = 400.0, decay = 0.5 * beta * k / b.m,
+               w = std::sqrt((k + b.m * g / b.R) / b.m - decay * decay);
+  const double slowed =
+      b.start * std::exp(-decay * b.t_end) * (std::cos(w * b.t_end) + decay / w * std::sin(w * b.t_end));
+  for (const char* engine : {"exact", "ida"}) {
+    CAPTURE(engine);
+    b.rest = damped;
+    const Result alone = run_text(b.scene(), engine, "1e-11");
+    CHECK(alone.rows.back().u[0] == doctest::Approx(b.start).epsilon(1e-9));
+    CHECK(std::abs(alone.report.audit.final.damping) < 1e-9 * alone.report.audit.initial.stored());
+    b.rest = damped + fmt::format("[[springs]]\nnode = \"A\"\ndirection = [1.0, 0.0]\nstiffness = {}\n", k);
+    CHECK(run_text(b.scene(), engine, "1e-11").rows.back().u[0] == doctest::Approx(slowed).epsilon(1e-8));
+  }
+  // A bearing that carries what the structure gives it, turned: its stiffness N_K / R is not damped either.
+  for (const double angle : {0.0, 0.7}) {
+    CAPTURE(angle);
+    const double c = std::cos(angle), s = std::sin(angle), kn = 1e8, sunk = b.m * g / kn;
+    const std::string text =
+        view_head({}) +
+        fmt::format(
+            "gravity = [{:.17g}, {:.17g}]\n[run]\nt_end = {:.17g}\noutput_dt = {:.17g}\ninitial = {{ A = {{ "
+            "ux "
+            "= {:.17g}, uy = {:.17g} }} }}\n[nodes]\nA = [0.0, 0.0]\n[[masses]]\nnode = \"A\"\nmass = {}\n"
+            "[[pendulums]]\nname = \"p\"\nnode = \"A\"\nradius = {}\nnormal = [{:.17g}, {:.17g}]\n"
+            "normal_stiffness = {}\nnormal_force = {:.17g}\n",
+            g * s, -g * c, b.t_end, b.t_end / 3.0, b.start * c + sunk * s, b.start * s - sunk * c, b.m, b.R,
+            -s, c, kn, b.m * g);
+    const Result result = run_text(text + damped, "ida", "1e-11");
+    CHECK(result.rows.back().u[0] * c + result.rows.back().u[1] * s ==
+          doctest::Approx(b.start).epsilon(1e-7));
+  }
+}
+
 TEST_CASE("a rigid rim stops a pendulum on either side, and it swings back from there") {
   Bearing b;
   b.friction = "0.0";
@@ -364,7 +404,7 @@ TEST_CASE("a reaction has N u / R of an N that varies: it is what accelerates th
 }
 
 TEST_CASE("piers under a slab in the wind: reactions of damped pendulums balance loads and inertia") {
-  // What each bears depends on where the slab stands, so K has N_K u / R beside the spring that the scene says, and C its part.
+  // What each bears depends on where the slab stands, so K has N_K u / R beside the spring that the scene says; C has neither.
   std::string scene =
       view_head({}) +
       "gravity = [0.0, -9.81]\n[run]\nt_end = 1.0\nengine = \"ida\"\nrtol = 1e-10\ninitial = "

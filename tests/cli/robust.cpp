@@ -46,16 +46,125 @@ void fake_gnuplot(const Shell& shell, const std::string& text) {
 
 TEST_SUITE_BEGIN("cli/robust");
 
-TEST_CASE("cli: closed standard streams are no files of a run") {
+TEST_CASE("cli: closed standard streams are no files of a run, and a lost output is exit code 6") {
   const Shell shell;
   shell.write("belt.toml", belt(5));
+  CHECK(line(shell, "$SIGNORINI run belt.toml --force --no-plots <&- 2>&- > out") == 0);
+  CHECK(line(shell, "$SIGNORINI run belt.toml --force --no-plots --quiet >&-") == 0);  // prints nothing
+  CHECK(line(shell, "$SIGNORINI check belt.toml >&- 2> err") == 6);
+  CHECK(has(shell.read("err"), "standard output: cannot be written"));
   for (const std::string closed : {">&-", "<&- >&-", "<&- >&- 2>&-"}) {
     CAPTURE(closed);
-    CHECK(line(shell, "$SIGNORINI run belt.toml --force --no-plots " + closed) == 0);
+    CHECK(line(shell, "$SIGNORINI run belt.toml --force --no-plots " + closed) == 6);
     CHECK(shell.read("belt-run/events.csv").rfind("t,contact,event,", 0) == 0);
     for (const char* name : {"events.csv", "history.csv", "contacts.csv", "energy.csv"})
       CHECK_FALSE(has(shell.read(std::string("belt-run/") + name), "Block on a moving belt"));
   }
+}
+
+TEST_CASE("cli: control characters of titles, names and paths do not reach the terminal") {
+  const Shell shell;
+  std::string text = belt(5);
+  const std::string commands = "\\u001b]0;owned\\u0007 \\u007f \\u009b31m \\u0085";
+  const std::size_t title = text.find("title = \"");
+  REQUIRE(title != std::string::npos);
+  text.insert(title + 9, commands);
+  shell.write("belt.toml", text);
+  const auto obeyed = [](const std::string& shown) {
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      const auto c = static_cast<unsigned char>(shown[i]);
+      const bool is_c1 = c == 0xc2 && i + 1 < shown.size() && static_cast<unsigned char>(shown[i + 1]) < 0xa0;
+      if ((c < 0x20 && c != '\n' && c != '\t') || c == 0x7f || is_c1) return true;
+    }
+    return false;
+  };
+  for (const char* command : {"run", "check"})
+    for (const char* format : {"", "--json"}) {
+      CAPTURE(command);
+      CAPTURE(format);
+      std::vector<std::string> words{command, "belt.toml"};
+      if (*format != '\0') words.emplace_back(format);
+      if (std::string(command) == "run") words.insert(words.end(), {"--no-plots", "--force"});
+      const Ending ending = shell.run(words);
+      CHECK(ending.code == 0);
+      CHECK_FALSE(obeyed(ending.out + ending.err));
+      CHECK(has(ending.out, "\\u009b31m"));
+      if (*format != '\0') CHECK(json::parse(ending.out).is_object());
+    }
+  const Ending missing = shell.run({"run", "no\x1b[31m\x7f\xc2\x9bscene.toml"});
+  CHECK(missing.code == 6);
+  CHECK_FALSE(obeyed(missing.err));
+  CHECK(has(missing.err, "no\\u001b[31m\\u007f\\u009bscene.toml"));
+}
+
+TEST_CASE("cli: a name of a file with NUL opens no other file") {
+  const Shell shell;
+  shell.write("a.csv", "t,f\n0,0\n1,1\n");
+  fs::create_directory(shell / "old-run");
+  const std::string load =
+      "[[loads]]\nnode = \"block\"\ndirection = [1.0, 0.0]\nhistory = { type = \"table\", file = "
+      "\"a.csv\\u0000.gone\" }\n";
+  shell.write("file.toml", belt(5) + load);
+  const Ending ending = shell.run({"check", "file.toml"});
+  CHECK(ending.code == 3);
+  CHECK(has(ending.err, "loads.1.history.file"));
+  CHECK(has(ending.err, "NUL"));
+  const Ending run = shell.run({"check", "file.toml", "--set", "run.initial={ run = \"old-run\\u0000x\" }"});
+  CHECK(run.code == 3);
+}
+
+TEST_CASE("cli: a deleted current directory is a file error, not a bug") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  fs::create_directory(shell / "gone");
+  const std::string scene = (shell / "belt.toml").string();
+  const int code =
+      line(shell, "cd gone && rmdir ../gone && $SIGNORINI run " + scene + " --no-plots 2> ../err");
+  CHECK(code == 6);
+  CHECK_FALSE(has(shell.read("err"), "a bug in Signorini"));
+}
+
+TEST_CASE("cli report, run --trace: pipes and devices are neither replaced nor waited for") {
+  const Shell shell;
+  shell.write("belt.toml", belt(5));
+  REQUIRE(shell.run({"run", "belt.toml", "--no-plots"}).code == 0);
+  REQUIRE(mkfifo((shell / "pipe").c_str(), 0600) == 0);
+  const Ending report = shell.run({"report", "belt-run", "-o", "pipe"});
+  CHECK(report.code == 6);
+  CHECK(has(report.err, "pipe: is a pipe"));
+  CHECK(fs::is_fifo(shell / "pipe"));
+  CHECK(shell.run({"report", "belt-run", "-o", "/dev/null"}).code == 6);
+  CHECK(fs::is_character_file("/dev/null"));
+  const Ending trace = shell.run({"run", "belt.toml", "--force", "--no-plots", "--trace", "pipe"});
+  CHECK(trace.code == 6);
+  CHECK(has(trace.err, "pipe: is a pipe that no program reads"));
+  // A pipe with a reader, and a device, take the trace.
+  CHECK(line(shell,
+             "cat pipe > read & $SIGNORINI run belt.toml --force --no-plots --trace pipe > out; wait") == 0);
+  CHECK(has(shell.read("read"), "\"round\":1"));
+  CHECK(shell.run({"run", "belt.toml", "--force", "--no-plots", "--trace", "/dev/null"}).code == 0);
+}
+
+TEST_CASE("cli sweep: one whose sweep.json states other units, title or columns is not continued") {
+  const Shell shell;
+  run_sweep(shell, {"-o", "sweep"});
+  const std::string right = shell.read("sweep/sweep.json");
+  for (const auto& [from, to] :
+       {std::pair<std::string, std::string>{"\"N\"", "\"kN\""}, {"\"kg\"", "\"t\""}}) {
+    CAPTURE(from);
+    std::string wrong = right;
+    REQUIRE(wrong.find(from) != std::string::npos);
+    wrong.replace(wrong.find(from), from.size(), to);
+    shell.write("sweep/sweep.json", wrong);
+    const Ending ending =
+        shell.run({"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "--quiet", "-o", "sweep"});
+    CHECK(ending.code == 6);
+    CHECK(has(ending.err, "units in sweep.json"));
+  }
+  shell.write("sweep/sweep.json", right);
+  CHECK(
+      shell.run({"sweep", "belt.toml", "--vary", three_rows, "--no-plots", "--quiet", "-o", "sweep"}).code ==
+      0);
 }
 
 TEST_CASE("cli run: a file error in the first block of rows says how far they go") {

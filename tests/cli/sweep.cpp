@@ -167,25 +167,24 @@ TEST_CASE("cli sweep: resumes where it was; a differing specification is refused
 
 TEST_CASE("cli sweep: an interrupt keeps the finished rows") {
   const Shell shell;
-  shell.write("belt.toml", belt(4000));  // some tenths of a second a row
+  shell.write("belt.toml", belt(1000));  // a row takes longer than the test's look at the first one
   const std::vector<std::string> command = {"sweep",  "belt.toml",
-                                            "--vary", "run.rtol=1e-11,1e-10,1e-9,1e-8,1e-7",
+                                            "--vary", "contacts.belt.friction.static=1.2:1.58:0.02",
                                             "--jobs", "1",
                                             "--keep", "--no-plots",
                                             "--set",  "run.output_dt=1"};
   const pid_t child = shell.start(command);
-  for (int i = 0; i < 600 && line_of(shell, "belt-sweep", 1).empty(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  for (int i = 0; i < 3000 && line_of(shell, "belt-sweep", 1).empty(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   kill(child, SIGINT);
   const Ending ending = shell.wait(child);
-  if (ending.code == 0) return;  // a machine so fast that all was done
   CHECK(ending.code == 130);
   CHECK(has(ending.err, "the same command continues"));
   CHECK(exists(shell, "belt-sweep/sweep.csv"));
   const Ending again = shell.run(command);
   CHECK(again.code == 0);
   CHECK(has(again.err, " already computed, "));
-  CHECK(rows(shell, "belt-sweep").size() == 5);
+  CHECK(rows(shell, "belt-sweep").size() == 20);
 }
 
 TEST_CASE("cli sweep: what is wrong is told before anything is written") {

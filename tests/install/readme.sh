@@ -16,7 +16,7 @@ project(own CXX)
 find_package(signorini REQUIRED)
 add_executable(own main.cpp)
 target_link_libraries(own PRIVATE signorini::signorini)
-foreach(example observe in_code go_on steer own_history own_law)
+foreach(example observe in_code go_on steer own_history own_law law_class disc_law)
   add_executable(${example} ${EXAMPLES}/${example}.cpp)
   target_link_libraries(${example} PRIVATE signorini::signorini)
 endforeach()
@@ -26,7 +26,7 @@ cmake --build "$work/build" >/dev/null
 events="$(cd "$root" && "$work/build/own" | wc -l)"
 echo "$events events"
 ((events > 200))
-for example in observe in_code go_on steer own_history own_law; do (cd "$root" && "$work/build/$example" >/dev/null); done
+for example in observe in_code go_on steer own_history own_law law_class disc_law; do (cd "$root" && "$work/build/$example" >/dev/null); done
 
 mv "$work/prefix" "$work/moved"
 pc="$(dirname "$(find "$work/moved" -name signorini.pc)")"

@@ -61,6 +61,13 @@ ContactState close(const Contact& contact, const MotionJet& jet) {
   return next;
 }
 
+/// Direction, +1 or -1, of the friction force just after an instant.
+double direction_of_friction(const MotionJet& jet) {
+  for (std::size_t k = 0; k < jet.motion.size(); ++k)
+    if (const double T = jet.motion[k].T; std::abs(T) > jet.noise[k].T) return T > 0.0 ? 1.0 : -1.0;
+  return 1.0;  // no friction force: a guard of the friction limit cannot fail
+}
+
 }  // namespace
 
 Form CoulombLaw::slip_rate(const Contact& contact, int s) const {
@@ -129,8 +136,11 @@ ContactState CoulombLaw::next_state(const Contact& contact, const ContactState& 
     case Guard::closing:
       return close(contact, jet);
     case Guard::slip_plus:
-    case Guard::slip_minus: {
-      const double s = failed == Guard::slip_plus ? 1.0 : -1.0;
+    case Guard::slip_minus:
+    case Guard::friction_limit: {
+      const double s = failed == Guard::friction_limit ? direction_of_friction(jet)
+                       : failed == Guard::slip_plus    ? 1.0
+                                                       : -1.0;
       const double T = s * contact::sliding_limit(contact, m.N);
       return {contact::slip_state(s), contact::slip_of(contact, m.ut, T)};
     }

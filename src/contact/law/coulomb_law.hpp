@@ -32,6 +32,10 @@ class CoulombLaw : public ContactLaw {
                                  const ContactIncrement& path) const override;
   [[nodiscard]] double stored_energy(const Contact& contact, State state,
                                      const ContactMotion& m) const override;
+  [[nodiscard]] std::shared_ptr<const ContactLaw> with_constants(
+      const VisitConstant& /*visit*/) const override {
+    return nullptr;
+  }
   /// Violations of (7) and the tension. A normal law with a gap adds the violations of (6).
   [[nodiscard]] Violations violations(const Contact& contact, State state,
                                       const ContactMotion& m) const override;

@@ -28,12 +28,16 @@ bool has_linear_guards(const UserContactLaw& law) {
 class UserLaw final : public ContactLaw {
  public:
   explicit UserLaw(std::shared_ptr<const UserContactLaw> data)
-      : ContactLaw(
-            {.normal_spring = true, .signorini_coulomb = false, .linear_guards = has_linear_guards(*data)}),
+      : ContactLaw({.normal_force_given = data->normal_force_given,
+                    .normal_spring = !data->normal_force_given,
+                    .signorini_coulomb = false,
+                    .linear_guards = has_linear_guards(*data),
+                    .tangents = acts_along_tangent(*data) ? 1U : 0U}),
         data_(std::move(data)) {}
 
   [[nodiscard]] std::string name() const override {
-    return is_named() ? data_->name : contact::to_string(Law::compliant);
+    return is_named() ? data_->name
+                      : contact::to_string(data_->normal_force_given ? Law::slider : Law::compliant);
   }
   [[nodiscard]] bool is_named() const override { return !data_->name.empty(); }
 
@@ -52,45 +56,12 @@ class UserLaw final : public ContactLaw {
     return result;
   }
 
-  [[nodiscard]] Form slip_rate(const Contact& /*contact*/, int /*s*/) const override { return {.vt = 1.0}; }
-
   [[nodiscard]] ContactState next_state(const Contact& /*contact*/, const ContactState& now, Guard failed,
                                         const MotionJet& jet) const override {
     if (failed == Guard::none) return now;
     const auto i = static_cast<std::size_t>(failed) - static_cast<std::size_t>(Guard::user_1);
     const UserLawGuard& guard = at(now.state).guards[i];
     return in_state(guard.next, guard.memory ? guard.memory->value(jet.motion[0]) : now.anchor);
-  }
-
-  [[nodiscard]] std::vector<ContactState> candidates(const Contact& /*contact*/, const ContactState& now,
-                                                     const ContactMotion& /*before*/) const override {
-    std::vector<ContactState> result;
-    for (std::size_t i = 0; i < data_->states.size(); ++i) result.push_back(in_state(i, now.anchor));
-    return result;
-  }
-
-  [[nodiscard]] double working_slip_rate(const Contact& /*contact*/, State /*state*/,
-                                         const ContactMotion& m) const override {
-    return m.vt;
-  }
-
-  /// `friction` is the whole work done on the contact, stored or dissipated.
-  [[nodiscard]] ContactWork work(const Contact& /*contact*/, State /*state*/, double N, double T,
-                                 const ContactIncrement& path) const override {
-    ContactWork work;
-    work.friction = N * path.gap + T * path.slip;
-    work.surface = -T * path.surface;
-    work.applied_normal_force = -N * path.time;
-    return work;
-  }
-  [[nodiscard]] double stored_energy(const Contact& /*contact*/, State /*state*/,
-                                     const ContactMotion& /*m*/) const override {
-    return 0.0;
-  }
-  /// Conditions (6) and (7) do not apply to a user-defined law, so there are no violations.
-  [[nodiscard]] Violations violations(const Contact& /*contact*/, State /*state*/,
-                                      const ContactMotion& /*m*/) const override {
-    return {};
   }
 
   [[nodiscard]] std::vector<State> user_law_states() const override {
@@ -107,6 +78,7 @@ class UserLaw final : public ContactLaw {
   [[nodiscard]] std::shared_ptr<const ContactLaw> with_constants(const VisitConstant& visit) const override {
     return std::make_shared<const UserLaw>(visit_law_constants(*data_, visit));
   }
+  [[nodiscard]] std::string validation_error() const override { return signorini::validation_error(*data_); }
   [[nodiscard]] bool equals(const ContactLaw& other) const override {
     const auto* user = dynamic_cast<const UserLaw*>(&other);
     return user != nullptr && user->data_ == data_;
@@ -129,6 +101,8 @@ class UserLaw final : public ContactLaw {
   std::shared_ptr<const UserContactLaw> data_;
 };
 
+constexpr Unit force_rate{1, 0, -1};
+
 /// Visits the coefficients of a form whose value has the unit `of`. Unit of a coefficient: `of` / unit of the quantity that
 /// it multiplies.
 void visit_form(Form& form, const Unit& of, const ContactLaw::VisitConstant& visit) {
@@ -141,6 +115,8 @@ void visit_form(Form& form, const Unit& of, const ContactLaw::VisitConstant& vis
   per(form.ut, unit::length);
   per(form.vn, unit::velocity);
   per(form.vt, unit::velocity);
+  per(form.applied_normal_force, unit::force);
+  per(form.applied_normal_force_rate, force_rate);
   visit(form.constant, of);
 }
 
@@ -156,10 +132,11 @@ Unit unit_of(const FormProduct& product) {
 
 /// True if the form depends on the motion or on forces; the unit of a constant form cannot be determined.
 bool has_unit(const Form& f) {
-  return f.N != 0.0 || f.T != 0.0 || f.gap != 0.0 || f.ut != 0.0 || f.vn != 0.0 || f.vt != 0.0;
+  return f.N != 0.0 || f.T != 0.0 || f.gap != 0.0 || f.ut != 0.0 || f.vn != 0.0 || f.vt != 0.0 ||
+         f.applied_normal_force != 0.0 || f.applied_normal_force_rate != 0.0;
 }
 
-std::string validation_error(const UserLawState& state, std::size_t states) {
+std::string validation_error(const UserLawState& state, std::size_t states, bool normal_force_given) {
   const auto refuse = [&](const std::string& what) {
     return fmt::format("state '{}': {}", state.name, what);
   };
@@ -171,6 +148,9 @@ std::string validation_error(const UserLawState& state, std::size_t states) {
   std::vector<Form> forms = {state.normal.form, state.tangent.form};
   if (forms[0].N == 0.0 || forms[1].T == 0.0)
     return refuse("expected N in its normal row and T in its tangent row");
+  if (normal_force_given &&
+      (forms[0] != Form{.N = 1.0, .applied_normal_force = 1.0} || state.normal.memory != 0.0))
+    return refuse("expected the normal row N + q = 0, because N is given");
   for (const UserLawGuard& guard : state.guards) {
     forms.push_back(guard.positive.form);
     if (guard.memory) forms.push_back(*guard.memory);
@@ -185,10 +165,14 @@ std::string validation_error(const UserLawState& state, std::size_t states) {
     if (guard.next >= states)
       return refuse(fmt::format("found next state {}, expected 0 to {}", guard.next, states - 1));
   }
-  for (const Form& f : forms)
-    if (f.an != 0.0 || f.at != 0.0 || f.applied_normal_force != 0.0 || f.applied_normal_force_rate != 0.0 ||
-        f.limit != 0.0 || f.limit_rate != 0.0)
+  for (const Form& f : forms) {
+    if (f.an != 0.0 || f.at != 0.0 || f.limit != 0.0 || f.limit_rate != 0.0)
       return refuse("expected forms that depend only on N, T, g, ut and their rates");
+    if (!normal_force_given && (f.applied_normal_force != 0.0 || f.applied_normal_force_rate != 0.0))
+      return refuse("found a form that depends on normal_force(t), but N is not given");
+    if (normal_force_given && (f.gap != 0.0 || f.vn != 0.0))
+      return refuse("found a form that depends on the gap, but N is given, so there is no gap");
+  }
   return {};
 }
 
@@ -198,7 +182,9 @@ std::string validation_error(const UserContactLaw& law) {
   if (law.states.empty() || law.states.size() > max_user_law_states)
     return fmt::format("found {} states, expected 1 to {}", law.states.size(), max_user_law_states);
   for (const UserLawState& state : law.states)
-    if (std::string refusal = validation_error(state, law.states.size()); !refusal.empty()) return refusal;
+    if (std::string refusal = validation_error(state, law.states.size(), law.normal_force_given);
+        !refusal.empty())
+      return refusal;
   return {};
 }
 
@@ -237,6 +223,7 @@ std::shared_ptr<const UserContactLaw> visit_law_constants(UserContactLaw law,
 }
 
 ContactLawPtr::ContactLawPtr(std::shared_ptr<const UserContactLaw> law)
-    : law_(std::make_shared<const UserLaw>(std::move(law))) {}
+    : ContactLawPtr(law ? std::make_shared<const UserLaw>(std::move(law))
+                        : std::shared_ptr<const UserLaw>()) {}
 
 }  // namespace signorini

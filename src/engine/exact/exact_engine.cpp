@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "base/rounding.hpp"
-#include "contact/friction.hpp"
+#include "contact/law.hpp"
 #include "model/internal_units.hpp"
 #include "motion/point.hpp"
 #include "motion/state_systems.hpp"
@@ -71,6 +71,7 @@ void ExactEngine::start(const engine::Segment& segment) {
   const bool same_motion = can_continue_series(decision, segment.same_forcing);
   const contact::ContactStates before =
       local_series_ ? std::exchange(states_, decision.states) : contact::ContactStates();
+  if (decision.jet.t != t_) rest_ = 0.0;
   t_ = decision.jet.t;
   end_ = {decision.u, decision.v, decision.jet.forces.col(0), decision.jet.a()};
   growth_now_ =
@@ -254,38 +255,45 @@ double ExactEngine::expand(double scale) {
   return taylor_.friction_reach(degree_, x);
 }
 
+/// Bounds on the remainders of N and T on [0, x], from the rows of the contact: a row gives its force, or is a constraint on an
+/// acceleration.
+ContactMotion ExactEngine::force_remainders(std::size_t c, double rest, const MotionRemainder& motion) const {
+  const auto& [normal, tangent] = segment_.decision->system->rows()[c];
+  ContactMotion m;
+  if (normal.N != 0.0 && tangent.T != 0.0) {  // both forces from two linear equations
+    const double n = motion.of(normal), t = motion.of(tangent);
+    const double det = std::abs(normal.N * tangent.T - normal.T * tangent.N);
+    m.N = (std::abs(tangent.T) * n + std::abs(normal.T) * t) / det;
+    m.T = (std::abs(tangent.N) * n + std::abs(normal.N) * t) / det;
+    return m;
+  }
+  const double of_acceleration = motion.rate * motion.rate * rest;
+  m.N = normal.N != 0.0 ? motion.of(normal) / std::abs(normal.N) : of_acceleration / norm_.normal(c);
+  if (tangent.T != 0.0)
+    m.T = (motion.of(tangent) + std::abs(tangent.N) * m.N) / std::abs(tangent.T);
+  else if (norm_.tangent(c) > 0.0)
+    m.T = of_acceleration / norm_.tangent(c);
+  return m;
+}
+
 /// Bound on the remainder of a form's polynomial on [0, x]. rest: bound on the remainder of the displacements, in the norm
 /// `norm_`.
 double ExactEngine::remainder_of(const Form& form, std::size_t c, double x, double rest) const {
-  const Contact& contact = model_.contacts[c];
-  const double rate = static_cast<double>(degree_ + 3) / (motion_.whole.scale * x);
-  const double gap = norm_.normal(c) * rest, ut = norm_.tangent(c) * rest;
-  double N = contact.normal_stiffness * gap + contact.normal_damping * rate * gap, T = 0.0;
-  const State state = segment_.decision->states[c].state;
-  if (contact.takes_impulses() && !is_open(state)) N = rate * rate * rest / norm_.normal(c);
-  if (slip_sign(state) != 0)
-    T = contact::slipping_friction(contact, state) * N;
-  else if (contact.tangential_stiffness)
-    T = *contact.tangential_stiffness * ut;
-  else if (state == State::stick && norm_.tangent(c) > 0.0)
-    T = rate * rate * rest / norm_.tangent(c);
-  return std::abs(form.N) * N + std::abs(form.T) * T + std::abs(form.gap) * gap + std::abs(form.ut) * ut +
-         std::abs(form.vn) * rate * gap + std::abs(form.vt) * rate * ut +
-         std::abs(form.an) * rate * rate * gap;
-}
-
-/// Bound on the remainder of a guard with products a b: |a b - p q| <= |p| db + (|q| + db) da, where p and q are the
-/// polynomials of a and b, and da and db the bounds on their remainders.
-double ExactEngine::remainder_of(const GuardForm& guard, std::size_t c, double x, double rest) const {
-  double sum = remainder_of(guard.form, c, x, rest);
-  const motion::ContactSeries& contact = motion_.contacts()[c];
-  for (std::size_t i = 0; !guard.is_linear() && i < guard.products->size(); ++i) {
-    const auto& [a, b] = (*guard.products)[i];
-    const double reach = reach_ - contact.origin(), da = remainder_of(a, c, x, rest),
-                 db = remainder_of(b, c, x, rest);
-    sum += contact.magnitude(a, reach) * db + (contact.magnitude(b, reach) + db) * da;
+  const MotionRemainder motion{norm_.normal(c) * rest, norm_.tangent(c) * rest,
+                               static_cast<double>(degree_ + 3) / (motion_.whole.scale * x)};
+  double sum = motion.of(form);
+  if (form.N != 0.0 || form.T != 0.0) {
+    const ContactMotion forces = force_remainders(c, rest, motion);
+    sum += std::abs(form.N) * forces.N + std::abs(form.T) * forces.T;
   }
   return sum;
+}
+
+/// Bound on the remainder of a guard, from the bounds on the remainders of its forms.
+double ExactEngine::remainder_of(const GuardForm& guard, std::size_t c, double x, double rest) const {
+  const motion::ContactSeries& contact = motion_.contacts()[c];
+  return guard.error([&](const Form& form) { return remainder_of(form, c, x, rest); },
+                     [&](const Form& form) { return contact.magnitude(form, reach_ - contact.origin()); });
 }
 
 /// GuardStart::drift() for the interval from the decision to the time t_ + x scale.
@@ -462,7 +470,8 @@ void ExactEngine::begin_series(double scale) {
       (segment_.end - valid_end_time_ < 0.01 * scale * x && taylor_.friction_reach(degree_, all) == all))
     valid_end_time_ = segment_.end;
   begin_x_ = 0.0;
-  reach_ = (valid_end_time_ - t_) / scale;
+  origin_rest_ = rest_;
+  reach_ = (valid_end_time_ - t_ - rest_) / scale;
   motion_.set_complete(degree_);
   if (local_series_) motion_.bound_rates(reach_);
   local_remainders_.assign(local_remainders_.size(), {series_remainder(reach_), reach_});
@@ -484,11 +493,12 @@ engine::Step ExactEngine::advance() {
   step_.begin = t_;
   const double x = first.at;
   double end = valid_end_time_;
+  const double passed = motion_.whole.scale * x + origin_rest_;
   if (first.slot) {
     step_.kind = engine::Step::Kind::event;
     step_.triggered = {{model_.layout.contact_of_guard(*first.slot),
                         segment_.decision->guards[*first.slot].kind, !active_guards_.armed(*first.slot)}};
-    end = motion_.whole.t + motion_.whole.scale * x;
+    end = motion_.whole.t + passed;
   } else {
     update_unarmed(x);
   }
@@ -497,6 +507,7 @@ engine::Step ExactEngine::advance() {
   turns_.find(motion_.contacts(), motion_.whole, begin_x_, x);
   end_x_ = x;
   motion_.evaluate_at(x, end_);  // more accurate than at `end`, which is rounded
+  rest_ = rest_of_sum(motion_.whole.t, passed, end);
   t_ = end;
   // A closed rigid contact satisfies only g'' = 0, whose rounding errors are integrated twice: restore g = 0 and g' = 0.
   if (!local_series_)

@@ -14,6 +14,7 @@
 // valid, so one series is used across several events.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <random>
@@ -31,6 +32,13 @@ namespace signorini::exact {
 
 /// Largest number of levels of a series (motion/taylor.hpp).
 inline constexpr int max_levels = 30;
+
+/// The exact a + b minus `sum`, which is fl(a + b) or differs from it by a few roundings (Knuth's two-sum).
+/// A time that is added up from steps without this part drifts: for steps of equal length each rounding has the same sign.
+[[nodiscard]] constexpr double rest_of_sum(double a, double b, double sum) {
+  const double of_b = sum - a;
+  return (a - (sum - of_b)) + (b - of_b);
+}
 
 /// Options of ExactEngine.
 struct SeriesOptions {
@@ -74,6 +82,17 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   [[nodiscard]] bool continue_series(const contact::ContactStates& before);
   [[nodiscard]] double local_radius(const motion::LocalSeries::LocalExpansion& near, double x);
   [[nodiscard]] double local_remainder(const motion::LocalSeries::LocalExpansion& near, double x);
+  /// Bounds on the remainders of g and ut, and the factor from the remainder of a polynomial to that of its derivative.
+  struct MotionRemainder {
+    double gap, ut, rate;
+    /// Bound on the remainder of the form without its forces.
+    [[nodiscard]] double of(const Form& f) const {
+      return std::abs(f.gap) * gap + std::abs(f.ut) * ut + std::abs(f.vn) * rate * gap +
+             std::abs(f.vt) * rate * ut + std::abs(f.an) * rate * rate * gap;
+    }
+  };
+  [[nodiscard]] ContactMotion force_remainders(std::size_t contact, double rest,
+                                               const MotionRemainder& motion) const;
   [[nodiscard]] double remainder_of(const Form& form, std::size_t contact, double x, double rest) const;
   [[nodiscard]] double remainder_of(const GuardForm& guard, std::size_t contact, double x, double rest) const;
   [[nodiscard]] double series_remainder(double x);
@@ -129,6 +148,8 @@ class ExactEngine final : public engine::Stepper, public engine::DenseOutput {
   std::optional<std::mt19937_64> random_;  // generator of random step lengths
   motion::Point end_;                      // end of the last step
   double t_ = 0.0, growth_now_ = 0.0;
+  double rest_ = 0.0,
+         origin_rest_ = 0.0;     // exact time minus t_ at the end of the last step, and at x = 0 in motion_
   double max_next_step_ = 0.0;   // limit of the length of the next step
   double segment_begin_ = 0.0;   // beginning of the segment
   double event_interval_ = 0.0;  // mean time between recent events; 0: none

@@ -311,11 +311,11 @@ void IdaEngine::add_zero_start_guard(std::size_t slot) {
   const decide::Decision& decision = *segment_.decision;
   const std::size_t contact = model_.layout.contact_of_guard(slot);
   const GuardForm& guard = decision.guard(slot);
-  const Form& form = guard.form;
-  const bool by_velocity = form.vn != 0.0 || form.vt != 0.0;
-  const bool known = guard.is_linear() && form.limit == 0.0 && form.limit_rate == 0.0 && form.an == 0.0 &&
-                     form.at == 0.0 &&
-                     !(by_velocity && decide::acts_on_massless(model_, model_.contacts[contact]));
+  const bool massless = decide::acts_on_massless(model_, model_.contacts[contact]);
+  const bool known = !guard.any_form([&](const Form& form) {
+    return form.limit != 0.0 || form.limit_rate != 0.0 || form.an != 0.0 || form.at != 0.0 ||
+           (massless && (form.vn != 0.0 || form.vt != 0.0));
+  });
   zero_start_guards_.push_back(
       {slot, engine::tolerance(guard, decision.after[contact], tolerance_), known, 0.0});
 }
@@ -326,10 +326,11 @@ void IdaEngine::add_errors() {
   if (zero_start_guards_.empty()) return;
   bdf_.keep_correction();
   for (ZeroStartGuard& guard : zero_start_guards_) {
+    const std::size_t contact = model_.layout.contact_of_guard(guard.slot);
     const double change =
-        guard.known ? std::abs(segment_.decision->form(guard.slot)
-                                   .rate(bdf_.correction(model_.layout.contact_of_guard(guard.slot))))
-                    : guard.tolerance;
+        guard.known
+            ? std::abs(segment_.decision->guard(guard.slot).rate(motions_[contact], bdf_.correction(contact)))
+            : guard.tolerance;
     guard.off += std::min(change, guard.tolerance);
   }
 }

@@ -303,7 +303,7 @@ void IdaProblem::list_watched_guards() {
       const std::size_t slot = layout_.contacts.guard(k, i);
       const Guard kind = segment_.decision->guards[slot].kind;
       // IDA does not interpolate accelerations, so guards that contain one are left to events::GuardMonitor::check().
-      if (kind == Guard::none || forms[i].form.an != 0.0) continue;
+      if (kind == Guard::none || forms[i].any_form([](const Form& form) { return form.an != 0.0; })) continue;
       // Guards are scaled to order 1, so that IDA's products of guard values do not underflow.
       const bool of_rate = kind == Guard::sliding && forms[i].form.T == 0.0;
       const double unit = kind == Guard::closing ? scale.displacement

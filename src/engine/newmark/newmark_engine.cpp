@@ -440,8 +440,7 @@ void NewmarkEngine::integrate(double from, double to, motion::WorkIntegrals& wor
 
 /// Bound on the guard's error due to the error of one step: h^2/12 |a1 - a0| in displacements, h/12 |a1 - 2 a0 + a_before| in
 /// velocities.
-double NewmarkEngine::guard_error(const GuardForm& guard, const ContactMotion&, std::size_t k) const {
-  const Form& form = guard.form;
+double NewmarkEngine::guard_error(const GuardForm& guard, const ContactMotion& motion, std::size_t k) const {
   if (begin_.a.size() == 0) return 0.0;  // no step was taken yet
   const Contact& contact = model_.contacts[k];
   const auto errors = [&](const Combination& c, double& u, double& v) {
@@ -455,7 +454,7 @@ double NewmarkEngine::guard_error(const GuardForm& guard, const ContactMotion&, 
   errors(contact.tangent, e.ut, e.vt);
   e.N = step_.rows()[k].normal.magnitude(e);
   e.T = step_.rows()[k].tangent.magnitude(e);
-  return form.magnitude(e);
+  return guard.rounding(&motion, &e, 0);
 }
 
 }  // namespace signorini::newmark

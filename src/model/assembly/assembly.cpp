@@ -247,8 +247,30 @@ GeometricStiffness assemble_geometric_stiffness(const Scene& scene, const DofMap
   return result;
 }
 
+namespace {
+
+/// Moves the sums of the builder into matrices.
+Assembly assembled(Builder& builder) {
+  const int n = builder.map.size();
+  const auto sparse = [n](const Triplets& entries) {
+    SparseMatrix a(n, n);
+    a.setFromTriplets(entries.begin(), entries.end());
+    return a;
+  };
+  return {sparse(builder.mass), sparse(builder.dampers), sparse(builder.stiffness),
+          builder.weight,       std::move(builder.base), std::move(builder.moving)};
+}
+
+}  // namespace
+
+Assembly assemble_restoring_springs(const Scene& scene, const DofMap& map) {
+  Builder builder = begun(scene, map);
+  for (std::size_t i = 0; i < scene.springs.size(); ++i)
+    if (scene.springs[i].restoring) builder.add_spring(scene.springs[i], fmt::format("springs.{}", i + 1));
+  return assembled(builder);
+}
+
 Assembly assemble_nodes(const Scene& scene, const DofMap& map) {
-  const int n = map.size();
   Builder builder = begun(scene, map);
   for (std::size_t i = 0; i < map.mesh.elements.size(); ++i) builder.add_element(i);
   for (std::size_t i = 0; i < scene.masses.size(); ++i)
@@ -257,13 +279,7 @@ Assembly assemble_nodes(const Scene& scene, const DofMap& map) {
   for (std::size_t i = 0; i < scene.springs.size(); ++i)
     builder.add_spring(scene.springs[i], fmt::format("springs.{}", i + 1));
   builder.zero_rounding_errors();
-  auto sparse = [n](const Triplets& entries) {
-    SparseMatrix a(n, n);
-    a.setFromTriplets(entries.begin(), entries.end());
-    return a;
-  };
-  return {sparse(builder.mass), sparse(builder.dampers), sparse(builder.stiffness),
-          builder.weight,       std::move(builder.base), std::move(builder.moving)};
+  return assembled(builder);
 }
 
 }  // namespace signorini::assembly

@@ -29,6 +29,10 @@ struct Assembly {
 /// Matrices of a scene with nodes.
 [[nodiscard]] Assembly assemble_nodes(const Scene& scene, const DofMap& map);
 
+/// Stiffness of the restoring springs of pendulums alone (Spring::restoring), and its columns of moving supports. The other
+/// matrices are zero.
+[[nodiscard]] Assembly assemble_restoring_springs(const Scene& scene, const DofMap& map);
+
 /// Matrices from files. Errors: SceneError for wrong sizes, or if M or K is not symmetric.
 [[nodiscard]] Assembly assemble_matrices(const Scene& scene, const DofMap& map);
 

@@ -6,12 +6,17 @@
 
 #include "base/history/pieces.hpp"
 #include "contact/law.hpp"
-#include "contact/law/user_law.hpp"
+#include "contact/law/law_error.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/saved_state.hpp"
 
 namespace signorini::assembly {
 namespace {
+
+/// True if a user law acts along the tangent although the contact has no friction.
+bool acts_along_tangent(const ContactLaw& law) {
+  return !law.capabilities.signorini_coulomb && law.capabilities.tangents > 0;
+}
 
 Combination tangent_form(const ContactSpec& spec, const DofMap& map) {
   Direction direction;
@@ -23,7 +28,7 @@ Combination tangent_form(const ContactSpec& spec, const DofMap& map) {
     return {};
   // Without friction the tangent is used for outputs only, where absent components are zero.
   const bool for_outputs_only = !spec.capabilities().normal_force_given && !spec.friction.any() &&
-                                !(spec.user_law && acts_along_tangent(*spec.user_law));
+                                !(spec.user_law && acts_along_tangent(**spec.user_law));
   return combination(map, direction, spec.key("tangent"), true, for_outputs_only);
 }
 
@@ -63,29 +68,27 @@ void check_friction_by_force(const ContactSpec& spec) {
   if (spec.tangential_damping != 0.0) refuse("cannot be combined with tangential_damping");
 }
 
-/// Errors: SceneError for a user law with invalid rows or guards, or with keys that cannot be combined with a user law.
-void check_user_law(const ContactSpec& spec, const Scene& scene) {
+/// Errors: SceneError for a user law with invalid rows or guards, or with keys that cannot be combined with a user law. A law
+/// with the built-in states can be combined with all keys.
+void check_user_law(const ContactSpec& spec, const Scene& scene, const Contact& contact) {
   const auto refuse = [&](const std::string& what) { throw SceneError(spec.place, spec.key("own"), what); };
-  const UserContactLaw& law = *spec.user_law;
-  if (!spec.capabilities().normal_spring)
-    refuse(
-        "found a user-defined law at a contact without a normal spring; only a compliant contact can have "
-        "such a law");
+  const ContactLaw& law = **spec.user_law;
+  if (const std::string error = law_error(contact, spec.law); !error.empty()) refuse(error);
+  if (law.capabilities.signorini_coulomb) return;
   if (spec.friction.any() || spec.normal_damping != 0.0 || spec.tangential_damping != 0.0)
     refuse(
         "found friction or dampers in addition to a user-defined law; remove them here, and include them in "
         "the rows of the law");
   if (scene.initial.is_static || scene.initial.is_frictional) {
-    if (law.name.empty())
+    if (!law.is_named())
       refuse(
           "found a static start with a user-defined law, which has none. Give run.initial as displacements "
           "and velocities, or use law = \"compliant\" without a user-defined law");
     throw SceneError(spec.place, spec.key("law"),
                      fmt::format("found law = \"{}\" with a static start, which this law does not have. Give "
                                  "run.initial as displacements and velocities, or use law = \"compliant\"",
-                                 law.name));
+                                 law.name()));
   }
-  if (const std::string refusal = validation_error(law); !refusal.empty()) refuse(refusal);
 }
 
 void check_slider(const ContactSpec& spec, const Contact& contact, double t_end) {
@@ -136,12 +139,12 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     if (!c.normal_force_given()) {
       if (spec.normal) c.normal = combination(map, *spec.normal, spec.key("normal"), true);
       check_gap(spec, c);
-      if (spec.user_law) check_user_law(spec, scene);
       if (c.normal_spring()) check_compliant(spec, c);
     } else {
       c.normal_force = scene::make_history(spec.normal_force, spec.key("normal_force"));
       check_slider(spec, c, scene.run.t_end);
     }
+    if (spec.user_law) check_user_law(spec, scene, c);
     c.surface_motion = scene::make_integral(spec.surface_velocity, spec.key("surface_velocity"));
     if (const auto& saved = scene.initial.saved)
       if (const auto moved = scene::saved_motion(*saved, c.name + ".surface"))

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "model/assembly/moving_obstacles.hpp"
 #include "model/assembly/ties.hpp"
 #include "scene/components.hpp"
 
@@ -192,6 +193,7 @@ DofMap number_nodes(const Scene& scene, element::Mesh mesh) {
     }
   add_own(map);
   tie(bodies, map);
+  follow_obstacles(scene, map);
   tie_seams(scene, map);
   add_columns(map);
   return map;
@@ -232,6 +234,16 @@ double DofMap::value(const Vector& x, int n) const {
   for (const TiedTerm& term : terms(n))
     if (term.number >= 0) sum += term.factor * x[term.number];
   return sum;
+}
+
+int DofMap::own_number(int node, std::size_t c) const {
+  const int n = number[static_cast<std::size_t>(node)][c];
+  if (!is_tied(n)) return n;
+  for (const TiedTerm& term : tied[static_cast<std::size_t>(n - size())].terms)
+    if (term.number >= 0 &&
+        locations[static_cast<std::size_t>(term.number)] == std::pair(node, static_cast<int>(c)))
+      return term.number;
+  return absent;
 }
 
 std::array<int, 3> DofMap::numbers_at(int node) const {
@@ -285,14 +297,8 @@ Combination combination(const DofMap& map, const Direction& direction, const std
     const int node = element::find_node(map.mesh, name, direction.place, key);
     for (std::size_t c = 0; c < 2; ++c) {
       if (vector[c] == 0.0 || weight == 0.0) continue;
-      const int d = map.number[static_cast<std::size_t>(node)][c];
+      const int d = map.numbers_at(node)[c];
       form.add(d, weight * (unit ? vector[c] / length : vector[c]));
-      if (unit && (map.moving[static_cast<std::size_t>(node)][c] >= 0 || form.follows_support()))
-        throw SceneError(
-            direction.place, key,
-            fmt::format("a support moves node '{}' in {}, but the node of a contact must be free or "
-                        "fixed: use another node, connected to the moving node by a spring",
-                        name, c == 0 ? "x" : "y"));
       if (d == DofMap::absent && !skip_absent)
         throw SceneError(
             direction.place, key,
@@ -303,6 +309,14 @@ Combination combination(const DofMap& map, const Direction& direction, const std
   };
   add(direction.node, 1.0);
   for (const auto& [node, weight] : direction.against) add(node, -weight);
+  // Motions of supports cancel in forms of contacts (moving_obstacles.hpp); the small rest of rounding is dropped.
+  if (unit && form.follows_support())
+    throw SceneError(
+        direction.place, key,
+        fmt::format("the motion of a support changes the gap or the slip of this contact at node '{}', "
+                    "which must depend on degrees of freedom only; if all supports move together, give "
+                    "[base_motion] instead of their motion",
+                    direction.node));
   return form.combination();
 }
 
@@ -333,125 +347,6 @@ SourcePlace place_of_dof(const Scene& scene, const DofMap& map, int dof) {
     if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) return member_place(e);
   }
   return place_of_structure(scene);
-}
-
-namespace {
-
-constexpr double at_rest = 1e-3;  // relative to the largest motion: smaller motions are treated as zero
-
-struct NodeMotion {
-  const element::MeshNode* node;
-  double x, y, turn;
-  bool turns;  ///< true: the node has a rotation
-};
-
-std::vector<NodeMotion> node_motions(const Vector& motion, const DofMap& map) {
-  std::vector<NodeMotion> result;
-  auto component = [&](int number) { return map.value(motion, number); };
-  for (std::size_t i = 0; i < map.number.size(); ++i) {
-    const auto& d = map.number[i];
-    if (d[0] == DofMap::absent && d[1] == DofMap::absent && d[2] == DofMap::absent) continue;
-    result.push_back(
-        {&map.mesh.nodes[i], component(d[0]), component(d[1]), component(d[2]), d[2] != DofMap::absent});
-  }
-  return result;
-}
-
-double rounded(double value, double size) { return std::abs(value) < at_rest * size ? 0.0 : value; }
-
-std::string direction_name(double x, double y) {
-  const double length = std::hypot(x, y);
-  if (std::abs(y) < at_rest * length) return "horizontal motion";
-  if (std::abs(x) < at_rest * length) return "vertical motion";
-  const double sign = x < 0.0 ? -1.0 : 1.0;
-  return fmt::format("motion along ({:.3g}, {:.3g})", sign * x / length, sign * y / length);
-}
-
-std::string name_of_largest_dof(const Vector& motion, const DofMap& map, double size, bool rotations) {
-  int largest = -1;
-  for (int i = 0; i < motion.size(); ++i) {
-    if (map.dofs[static_cast<std::size_t>(i)].rotation != rotations) continue;
-    if (largest < 0 || std::abs(motion[i]) > (1.0 + at_rest) * std::abs(motion[largest])) largest = i;
-  }
-  const std::string name = largest < 0 ? "" : map.dofs[static_cast<std::size_t>(largest)].displacement;
-  int others = -1;
-  for (int i = 0; i < motion.size(); ++i)
-    if (map.dofs[static_cast<std::size_t>(i)].rotation == rotations && std::abs(motion[i]) > at_rest * size)
-      ++others;
-  return others > 0 ? fmt::format("motion of {} (and {} more)", name, others)
-                    : fmt::format("motion of {}", name);
-}
-
-/// True if all nodes rotate rigidly about one centre; `name` is then set to "rotation about (x, y)".
-bool rigid_rotation(const std::vector<NodeMotion>& nodes, double size, double shown, std::string& name) {
-  double theta = 0.0;
-  for (const NodeMotion& m : nodes)
-    if (m.turns && std::abs(m.turn) > std::abs(theta)) theta = m.turn;
-  if (theta == 0.0) return false;
-  // u = -theta (y - cy), v = theta (x - cx)
-  const NodeMotion& first = nodes.front();
-  const double cx = first.node->x - first.y / theta, cy = first.node->y + first.x / theta;
-  for (const NodeMotion& m : nodes) {
-    if (std::abs(m.x + theta * (m.node->y - cy)) > at_rest * size ||
-        std::abs(m.y - theta * (m.node->x - cx)) > at_rest * size)
-      return false;
-    if (m.turns && std::abs(m.turn - theta) > at_rest * std::abs(theta)) return false;
-  }
-  double extent = 0.0;
-  for (const NodeMotion& m : nodes) extent = std::max(extent, std::hypot(m.node->x - cx, m.node->y - cy));
-  name = fmt::format("rotation about ({:.4g}, {:.4g})", rounded(cx, extent) * shown,
-                     rounded(cy, extent) * shown);
-  return true;
-}
-
-/// True if all nodes translate by the same vector without rotating.
-bool translates(const std::vector<NodeMotion>& nodes, double size) {
-  const NodeMotion& first = nodes.front();
-  double turning = 0.0, extent = 0.0;  // a rotation that moves no node by at_rest * size is ignored
-  for (const NodeMotion& m : nodes) {
-    if (std::hypot(m.x - first.x, m.y - first.y) > at_rest * size) return false;
-    turning = std::max(turning, std::abs(m.turn));
-    extent = std::max(extent, std::hypot(m.node->x - first.node->x, m.node->y - first.node->y));
-  }
-  return turning * extent <= at_rest * size;
-}
-
-}  // namespace
-
-bool is_rigid(const Vector& motion, const DofMap& map) {
-  const double size = max_translation(motion, map);
-  if (map.is_matrix_scene() || !(size > 0.0)) return false;
-  const auto nodes = node_motions(motion, map);
-  std::string name;
-  return translates(nodes, size) || rigid_rotation(nodes, size, map.message_length_factor, name);
-}
-
-double max_translation(const Vector& motion, const DofMap& map) {
-  double size = 0.0;
-  for (const NodeMotion& m : node_motions(motion, map)) size = std::max(size, std::hypot(m.x, m.y));
-  if (map.is_matrix_scene() && motion.size() > 0) size = motion.cwiseAbs().maxCoeff();
-  return size;
-}
-
-std::string describe_motion(const Vector& motion, const DofMap& map) {
-  const double size = max_translation(motion, map);
-  const double whole = motion.size() == 0 ? 0.0 : motion.cwiseAbs().maxCoeff();
-  if (!(size > 0.0)) return name_of_largest_dof(motion, map, whole, true);
-  if (map.is_matrix_scene()) return name_of_largest_dof(motion, map, size, false);
-  const auto nodes = node_motions(motion, map);
-  int moving = 0;
-  const NodeMotion* mover = nullptr;
-  for (const NodeMotion& m : nodes)
-    if (std::hypot(m.x, m.y) > at_rest * size && ++moving) mover = &m;
-  if (translates(nodes, size)) {
-    const std::string name = direction_name(mover->x, mover->y);
-    return nodes.size() == 1 ? fmt::format("{} of node '{}'", name, mover->node->name) : name;
-  }
-  std::string name;
-  if (rigid_rotation(nodes, size, map.message_length_factor, name)) return name;
-  if (moving == 1)
-    return fmt::format("{} of node '{}'", direction_name(mover->x, mover->y), mover->node->name);
-  return name_of_largest_dof(motion, map, size, false);
 }
 
 }  // namespace signorini::assembly

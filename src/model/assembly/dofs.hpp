@@ -78,6 +78,9 @@ struct DofMap {
   [[nodiscard]] element::AxialForces axial_forces_in(std::size_t element) const {
     return axial_forces.empty() ? element::AxialForces{} : axial_forces[element];
   }
+  /// The degree of freedom of a component of a node: its number, or, of a node with a motion relative to an obstacle
+  /// (moving_obstacles.hpp), the number of this relative motion. Otherwise `fixed` or `absent`, also for other tied motions.
+  [[nodiscard]] int own_number(int node, std::size_t c) const;
   /// Numbers of the element's unknowns, coded as in numbers_at().
   [[nodiscard]] std::vector<int> element_numbers(std::size_t element) const;
 };
@@ -117,21 +120,5 @@ struct DofMap {
 [[nodiscard]] SourcePlace place_of_dof(const Scene& scene, const DofMap& map, int dof);
 /// Place of the structure as a whole: its first member or node, or its mass matrix.
 [[nodiscard]] SourcePlace place_of_structure(const Scene& scene);
-
-// Describes a motion in words.
-//
-//   u = a                    "horizontal motion", "vertical motion", "motion along (0.8, 0.6)"
-//   u = a + theta x (r - c)  "rotation about (12, 6)"
-//
-// The text adds "of node 'A'" if only one node moves; other motions are named by their largest degree of freedom.
-
-/// motion: length n. Entries below 1e-3 of the largest are treated as zero.
-[[nodiscard]] std::string describe_motion(const Vector& motion, const DofMap& map);
-
-/// True if all nodes move as one rigid body.
-[[nodiscard]] bool is_rigid(const Vector& motion, const DofMap& map);
-
-/// Largest displacement of a node (matrix scenes: the largest component).
-[[nodiscard]] double max_translation(const Vector& motion, const DofMap& map);
 
 }  // namespace signorini::assembly

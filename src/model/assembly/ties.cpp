@@ -170,7 +170,6 @@ std::vector<std::pair<int, std::size_t>> constrained_components(const Scene& sce
 void TiedForm::add(int number, double factor) {
   if (factor == 0.0) return;
   for (const TiedTerm& term : map_.terms(number)) {
-    follows_ = follows_ || term.number < 0;
     const double part = factor * term.factor;
     const auto same =
         std::find_if(sums_.begin(), sums_.end(), [&](const Sum& s) { return s.number == term.number; });
@@ -181,6 +180,12 @@ void TiedForm::add(int number, double factor) {
       same->size += std::abs(part);
     }
   }
+}
+
+bool TiedForm::follows_support() const {
+  return std::any_of(sums_.begin(), sums_.end(), [](const Sum& s) {
+    return s.number < 0 && std::abs(s.sum) > rounding::few_operations * s.size;
+  });
 }
 
 Combination TiedForm::combination() const {

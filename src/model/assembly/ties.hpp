@@ -59,8 +59,8 @@ class TiedForm {
   explicit TiedForm(const DofMap& map) : map_(map) {}
   /// Adds factor times the motion with this number (DofMap::terms).
   void add(int number, double factor);
-  /// True if a moving support contributes.
-  [[nodiscard]] bool follows_support() const { return follows_; }
+  /// True if a moving support contributes; contributions that cancel up to rounding do not.
+  [[nodiscard]] bool follows_support() const;
   /// The form on degrees of freedom, without moving supports.
   [[nodiscard]] Combination combination() const;
   [[nodiscard]] Elongation with_supports() const;
@@ -72,7 +72,6 @@ class TiedForm {
   };
   const DofMap& map_;
   std::vector<Sum> sums_;
-  bool follows_ = false;
 };
 
 /// The unknowns of an element with tied nodes: T times degrees of freedom and motions of supports.

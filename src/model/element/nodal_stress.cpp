@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "base/eigen_dense.hpp"
@@ -22,11 +23,12 @@ constexpr double inside = 1.5, max_amplification = 10.0;
 constexpr double alike = 1e-6;  // relative difference of sum |c_j| below which two patches are equal
 constexpr double met = 1e-9;    // largest residual of the conditions for c, if a polynomial exists
 
-/// Monomials 1, x, y, for quadratic elements also x^2, x y, y^2.
-Eigen::VectorXd powers(double x, double y, bool quadratic) {
-  Eigen::VectorXd q(quadratic ? 6 : 3);
-  q.head<3>() << 1.0, x, y;
-  if (quadratic) q.tail<3>() << x * x, x * y, y * y;
+/// Monomials x^i y^j, i + j <= degree.
+Eigen::VectorXd powers(double x, double y, int degree) {
+  Eigen::VectorXd q((degree + 1) * (degree + 2) / 2);
+  Eigen::Index k = 0;
+  for (int order = 0; order <= degree; ++order)
+    for (int j = 0; j <= order; ++j) q[k++] = std::pow(x, order - j) * std::pow(y, j);
   return q;
 }
 
@@ -48,21 +50,15 @@ class BodyStresses {
   }
 
   [[nodiscard]] std::vector<StressTerm> at(int node) {
-    Fit best = fitted(node, around_[own(node)]);
-    if (best.amplified <= inside) return terms_of(best.sums);
-    std::vector<Fit> fits{std::move(best)};
-    for (const int other : neighbours(node)) fits.push_back(fitted(node, around_[own(other)]));
-    double least = max_amplification;
-    for (const Fit& fit : fits) least = std::min(least, fit.amplified);
-    double count = 0.0;
-    for (const Fit& fit : fits) count += fit.amplified <= (1.0 + alike) * least ? 1.0 : 0.0;
-    if (count == 0.0) return mean(node);
-    Sums sums;
-    for (const Fit& fit : fits)
-      if (fit.amplified <= (1.0 + alike) * least)
-        for (const auto& [n, rows] : fit.sums)
-          sums.try_emplace(n, Rows::Zero()).first->second += rows / count;
-    return terms_of(sums);
+    const int degree = degree_at(node);
+    std::vector<Fit> fits;
+    fits.push_back(fitted(node, around_[own(node)], degree));
+    if (fits.front().amplified <= inside) return terms_of(fits.front().sums);
+    if (degree > 1)
+      if (const auto sums = best_of(at_neighbours(node, degree + 1))) return terms_of(*sums);
+    for (Fit& fit : at_neighbours(node, degree)) fits.push_back(std::move(fit));
+    if (const auto sums = best_of(fits)) return terms_of(*sums);
+    return mean(node);
   }
 
  private:
@@ -72,6 +68,32 @@ class BodyStresses {
     double amplified = std::numeric_limits<double>::infinity();
     Sums sums;
   };
+
+  /// Degree of the polynomial of the stresses in the elements at a node.
+  [[nodiscard]] int degree_at(int node) const {
+    const std::vector<std::size_t>& ring = around_[own(node)];
+    return !ring.empty() && mesh::has_midside_nodes(elements_[ring.front()]->shape()) ? 2 : 1;
+  }
+  /// Polynomials through the stress points around each neighbour, evaluated at the node.
+  [[nodiscard]] std::vector<Fit> at_neighbours(int node, int degree) {
+    std::vector<Fit> fits;
+    for (const int other : neighbours(node)) fits.push_back(fitted(node, around_[own(other)], degree));
+    return fits;
+  }
+  /// Mean of the fits with the smallest amplification; nullopt if none is suitable.
+  [[nodiscard]] static std::optional<Sums> best_of(const std::vector<Fit>& fits) {
+    double least = max_amplification;
+    for (const Fit& fit : fits) least = std::min(least, fit.amplified);
+    const auto is_best = [&](const Fit& fit) { return fit.amplified <= (1.0 + alike) * least; };
+    const auto count = static_cast<double>(std::count_if(fits.begin(), fits.end(), is_best));
+    if (count == 0.0) return std::nullopt;
+    Sums sums;
+    for (const Fit& fit : fits)
+      if (is_best(fit))
+        for (const auto& [n, rows] : fit.sums)
+          sums.try_emplace(n, Rows::Zero()).first->second += rows / count;
+    return sums;
+  }
 
   const Mesh& mesh_;
   int first_;
@@ -105,7 +127,7 @@ class BodyStresses {
   }
 
   /// Polynomial fit through the stress points of the elements in `ring`; `amplified` is infinite if they do not determine it.
-  Fit fitted(int node, const std::vector<std::size_t>& ring) {
+  Fit fitted(int node, const std::vector<std::size_t>& ring, int degree) {
     std::vector<const PlaneElement::StressSample*> points;
     std::vector<const PlaneElement*> of;
     double size = 0.0;
@@ -117,12 +139,12 @@ class BodyStresses {
         size = std::max(size, std::hypot(sample.at[0] - at.x, sample.at[1] - at.y));
       }
     if (points.empty()) return {};
-    const bool quadratic = mesh::has_midside_nodes(of.front()->shape());
-    const Eigen::VectorXd wanted = powers(0.0, 0.0, quadratic);
+    const Eigen::VectorXd wanted = powers(0.0, 0.0, degree);
+    if (static_cast<Eigen::Index>(points.size()) < wanted.size()) return {};
     Eigen::MatrixXd conditions(wanted.size(), static_cast<Eigen::Index>(points.size()));
     for (std::size_t j = 0; j < points.size(); ++j)
       conditions.col(static_cast<Eigen::Index>(j)) =
-          powers((points[j]->at[0] - at.x) / size, (points[j]->at[1] - at.y) / size, quadratic);
+          powers((points[j]->at[0] - at.x) / size, (points[j]->at[1] - at.y) / size, degree);
     const Eigen::VectorXd c = base::least_squares(conditions, wanted);
     if ((conditions * c - wanted).cwiseAbs().maxCoeff() > met) return {};
     Fit fit{c.cwiseAbs().sum(), {}};

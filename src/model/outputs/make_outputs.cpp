@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/curves.hpp"
-#include "contact/curved_surface.hpp"
 #include "model/outputs/reactions.hpp"
 #include "model/outputs/structure_rows.hpp"
 #include "model/reduce/reduction.hpp"
@@ -133,15 +132,12 @@ class Maker {
   }
 
   /// Adds the restoring force N u / R of a pendulum minus N_0 u / R, the force of the scene's spring, which the row already
-  /// contains. Adds the damping by beta of the stiffness N_K / R in the model's K.
+  /// contains.
   void restore(const PhysicalRow::CurvedContact& bowl, Output& output) const {
     const Contact& contact = model_.contacts[bowl.contact];
     const CurvedSurface& in_scene = *scene_.contacts[bowl.contact].pendulum_surface;
     output.restoring.push_back(
         {bowl.contact, contact.body_tangent(), bowl.factor / in_scene.radius, in_scene.nominal_force});
-    if (model_.beta != 0.0)
-      add(output.v, contact.body_tangent(),
-          bowl.factor * model_.beta * contact::extra_stiffness(scene_.contacts[bowl.contact], contact));
   }
 
   void fill(const OutputSpec& spec, PhysicalRow& row, Output& output) {
@@ -292,7 +288,8 @@ class Maker {
     const double damping = spec.rotation ? spring.rotation_damping : spring.damping;
     if (!spec.rotation && spring.preload != 0.0) output.contains.emplace_back("preload");
     if (stiffness != 0.0) output.contains.emplace_back("stiffness");
-    if (damping + model_.beta * stiffness != 0.0) output.contains.emplace_back("damper");
+    const double beta = spring.restoring ? 0.0 : model_.beta;
+    if (damping + beta * stiffness != 0.0) output.contains.emplace_back("damper");
   }
 
   void reaction(const OutputSpec& spec, PhysicalRow& row) {

@@ -105,33 +105,33 @@ double variability(const HangerLoad& hanger) {
 }
 
 std::vector<std::string> hanger_warnings(const Scene& scene, const Model& model) {
-  std::vector<std::string> doubts;
+  std::vector<std::string> warnings;
   for (const HangerLoad& h : model.hangers) {
     const Spring& spring = scene.springs[h.spring - 1];
     const double along = spring.direction[0] * scene.gravity[0] + spring.direction[1] * scene.gravity[1];
     // The force on the node is -cold times the direction.
     if (h.hot && h.cold * along < 0.0)
-      doubts.push_back(
+      warnings.push_back(
           fmt::format("the hanger of spring {} pushes its node along gravity; reverse the direction of the "
                       "spring: it must point from the hanger's anchor to the node",
                       h.spring));
   }
-  if (!model.static_start) return doubts;
+  if (!model.static_start) return warnings;
   for (const HangerLoad& h : model.hangers) {
     const double cold = h.cold * model.unit.force, now = h.at_start * model.unit.force;
     const std::string& unit = model.units.force;
     if ((cold > 0.0) != (now > 0.0))
-      doubts.push_back(
+      warnings.push_back(
           fmt::format("spring {} carries {:.6g} {} in equilibrium and {:.6g} {} in the undeformed state: the "
                       "sign differs; check the preload",
                       h.spring, now, unit, cold, unit));
     else if (variability(h) > usual_variability)
-      doubts.push_back(
+      warnings.push_back(
           fmt::format("spring {} carries {:.6g} {} in equilibrium and {:.6g} {} in the undeformed state: its "
                       "variability is {:.3g} %, above the usual limit of 25 %",
                       h.spring, now, unit, cold, unit, 100.0 * variability(h)));
   }
-  return doubts;
+  return warnings;
 }
 
 }  // namespace signorini::outputs

@@ -164,13 +164,14 @@ std::array<double, 3> StructureRows::direction_of(const Spring& spring) const {
 void StructureRows::add_spring(PhysicalRow& row, const Spring& spring, bool rotation, double factor) const {
   const double stiffness = factor * (rotation ? spring.rotation_stiffness : spring.stiffness);
   const double damping = factor * (rotation ? spring.rotation_damping : spring.damping);
+  const double beta = spring.restoring ? 0.0 : beta_;
   const std::array<double, 3> d = direction_of(spring);
   const auto add = [&](const std::string& name, double sign) {
     const auto numbers = map_.numbers_at(map_.mesh.by_name.at(name));
     for (const std::size_t c : rotation ? std::vector<std::size_t>{2} : std::vector<std::size_t>{0, 1})
       if (d[c] != 0.0)
         add_motion(row, numbers[c], sign * stiffness * d[c], sign * damping * d[c], 0.0,
-                   sign * beta_ * stiffness * d[c]);
+                   sign * beta * stiffness * d[c]);
   };
   if (!rotation && spring.preload != 0.0) row.constant += factor * spring.preload;
   add(spring.node, 1.0);

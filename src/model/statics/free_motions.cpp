@@ -22,7 +22,8 @@ namespace {
 constexpr double static_pivot_limit = 1e-3;  // smallest accepted pivot, relative to the row's largest entry
 // A contact can fix a motion of size 1 only if the motion causes at least this slip at the contact.
 constexpr double holds = 1e-6;
-// Of contacts whose slips differ less, the first one fixes a motion: rounding does not choose between equal ones.
+// If the slips of contacts differ by less than this factor, the first contact fixes a motion: rounding does not choose between
+// equal ones.
 constexpr double clearly_more = 1.0 + 1e-6;
 // A smaller work, relative to the largest load times the motion, does not drive a free motion.
 constexpr double undriven = 1e-9;

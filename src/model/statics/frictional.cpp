@@ -10,6 +10,7 @@
 #include "base/text.hpp"
 #include "linear/sparse_cholesky.hpp"
 #include "model/assembly/dofs.hpp"
+#include "model/assembly/motion_names.hpp"
 #include "model/statics/mechanisms.hpp"
 #include "model/statics/quasi_static_rates.hpp"
 #include "model/statics/smallest_motion.hpp"

@@ -6,6 +6,7 @@
 #include "base/eigen_dense.hpp"
 #include "base/lcp.hpp"
 #include "model/assembly/dofs.hpp"
+#include "model/assembly/motion_names.hpp"
 #include "model/statics/mechanisms.hpp"
 
 namespace signorini::statics {

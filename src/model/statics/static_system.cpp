@@ -12,6 +12,7 @@
 #include "contact/motion.hpp"
 #include "linear/sparse_cholesky.hpp"
 #include "model/assembly/dofs.hpp"
+#include "model/assembly/motion_names.hpp"
 #include "model/assembly/parts.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/statics/mechanisms.hpp"

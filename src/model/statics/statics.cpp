@@ -7,9 +7,10 @@
 
 #include "base/eigen_dense.hpp"
 #include "linear/sparse_cholesky.hpp"
-#include "model/assembly/dofs.hpp"
+#include "model/assembly/motion_names.hpp"
 #include "model/assembly/springs.hpp"
 #include "model/statics/free_motions.hpp"
+#include "model/statics/mechanism_check.hpp"
 #include "model/statics/mechanisms.hpp"
 #include "model/statics/static_system.hpp"
 
@@ -52,44 +53,6 @@ Trial attempt(const StaticProblem& problem, const std::vector<bool>& closed) {
     trial.force = size > 0.0 ? std::abs(work) / size : std::abs(work);
   }
   return trial;
-}
-
-/// Errors: SceneError if the mesh is so fine that K loses all digits, because EI / h^3 exceeds EI / L^3 by a factor above
-/// 1e16. A motion that seems to be free is then a slow bending motion, so the message does not name it.
-void refuse_roundoff(const StaticProblem& problem, const Eigen::MatrixXd& null, const SourcePlace& place,
-                     const char* key) {
-  if (problem.size() <= 10000) return;
-  bool rigid = true;
-  for (Eigen::Index j = 0; j < null.cols(); ++j)
-    rigid = rigid && assembly::is_rigid(null.col(j), problem.map);
-  if (rigid) return;
-  throw SceneError(place, key,
-                   fmt::format("a static start is impossible: with {} degrees of freedom the stiffness is so "
-                               "ill-conditioned that roundoff hides unrestrained motions; use fewer "
-                               "elements, or give the initial state (if the structure is a mechanism, a "
-                               "model with fewer elements shows its unrestrained motion)",
-                               problem.size()));
-}
-
-/// Errors: SceneError for a motion that no contact could restrain, even if all contacts were closed and stuck.
-void refuse_mechanisms(const StaticProblem& problem, const std::vector<bool>& all, const SourcePlace& place,
-                       const char* key) {
-  std::vector<assembly::LineSpring> grips;
-  const SparseMatrix k = problem.matrix(all);
-  for (const Contact& c : problem.contacts)
-    if (!c.tangent.terms.empty()) grips.push_back({c.tangent, structural_stiffness(k, c.tangent)});
-  const Eigen::MatrixXd null = simple_motions(null_motions(assembly::with_springs(k, grips)), problem.map);
-  if (null.cols() == 0) return;
-  refuse_roundoff(problem, null, place, key);
-  std::string names = assembly::describe_motion(null.col(0), problem.map);
-  for (Eigen::Index j = 1; j < std::min<Eigen::Index>(null.cols(), 3); ++j)
-    names += ", " + assembly::describe_motion(null.col(j), problem.map);
-  if (null.cols() > 3) names += fmt::format(" and {} more", null.cols() - 3);
-  throw SceneError(
-      place, key,
-      fmt::format("a static start is impossible, the structure is a mechanism: nothing restrains the {}; add "
-                  "a support, a spring or a contact, or give the initial state",
-                  names));
 }
 
 [[noreturn]] void refuse_driven(const StaticProblem& problem, const std::vector<bool>& all,

@@ -211,12 +211,12 @@ class Chart {
     pen.stroke();
     pen.setLineDash([]);
   }
-  // Moves the cursor to t; tells: also shows the values at t.
-  read(t, tells = true) {
+  // Moves the cursor to t; updatesValues: also shows the values at t.
+  read(t, updatesValues = true) {
     const inside = t >= this.charts.from && t <= this.charts.to;
     this.cursor.style.display = inside ? "block" : "none";
     if (inside && this.X) this.cursor.style.transform = `translateX(${this.X(t).toFixed(1)}px)`;
-    if (!tells) return;
+    if (!updatesValues) return;
     for (const one of this.series) {
       if (!one.shown) { one.value.textContent = ""; continue; }
       const [row, part] = between(one.t, t), a = one.y[row], b = one.y[Math.min(row + 1, one.y.length - 1)];
@@ -294,8 +294,8 @@ class Charts {
     byId("timesShown").textContent = `${Number(this.from.toPrecision(6))} to ${Number(this.to.toPrecision(6))} ${data.units[2]}`;
     this.read(this.player.t);
   }
-  // tells: also update the displayed values; during play this happens ten times per second.
-  read(t, tells = true) {
-    for (const chart of this.list) chart.read(t, tells);
+  // updatesValues: also update the displayed values; during play this happens ten times per second.
+  read(t, updatesValues = true) {
+    for (const chart of this.list) chart.read(t, updatesValues);
   }
 }

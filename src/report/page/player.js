@@ -138,7 +138,7 @@ class Player {
   toggle() {
     this.playing = !this.playing;
     if (this.playing && this.t >= this.last) this.t = 0;
-    this.before = this.toldAt = undefined;
+    this.before = this.shownAt = undefined;
     if (this.playing) requestAnimationFrame((now) => this.frame(now));
     this.show(this.t);
   }
@@ -174,15 +174,15 @@ class Player {
     // During play numbers are updated only ten times per second, since faster ones cannot be read.
     // At a node with several contacts, a closed one determines the dot's colour.
     const closed = new Set(data.contacts.filter((contact) => this.stateOf(contact) !== "open").map((contact) => contact.node));
-    const now = performance.now(), tells = !this.playing || !(now - this.toldAt < 100);
-    if (tells) this.toldAt = now;
+    const now = performance.now(), updatesValues = !this.playing || !(now - this.shownAt < 100);
+    if (updatesValues) this.shownAt = now;
     data.contacts.forEach((contact, k) => {
-      this.contact(contact, k, u, m, tells);
+      this.contact(contact, k, u, m, updatesValues);
       put(this.marks[k], "visibility", closed.has(contact.node) && this.stateOf(contact) === "open" ? "hidden" : "visible");
     });
     byId("needle").style.transform = `translateX(${(this.last > 0 ? this.wide * this.t / this.last : 0).toFixed(1)}px)`;
-    if (tells) this.told();
-    if (window.charts) window.charts.read(this.t, tells);
+    if (updatesValues) this.showValues();
+    if (window.charts) window.charts.read(this.t, updatesValues);
   }
   stateOf({ motion: { t, state } }) {
     return t.length ? data.states[state[Math.max(0, rowAt(t, this.t))]]?.[0] : "open";
@@ -191,7 +191,7 @@ class Player {
   figure(x, digits, greatest) {
     return Math.abs(x) <= 2.2e-13 * greatest ? "0" : x.toPrecision(digits);
   }
-  contact(contact, k, u, m, tells) {
+  contact(contact, k, u, m, updatesValues) {
     const { t, state, N, T, gap } = contact.motion;
     if (!t.length) return;
     const [name, colour] = data.states[state[Math.max(0, rowAt(t, this.t))]] || ["", "#999999"];
@@ -208,7 +208,7 @@ class Player {
       if (this.touchShapes[k]) put(this.touchShapes[k], "d", this.stage.touched(contact, u, m));
     }
     const row = this.rows[k];
-    if (!row || !tells) return;
+    if (!row || !updatesValues) return;
     const g = valueAt(t, gap, this.t);
     row.chip.style.background = colour;
     row.state.textContent = name;
@@ -216,7 +216,7 @@ class Player {
     row.cells[1].textContent = this.figure(s, 5, this.greatest);
     row.cells[2].textContent = contact.slider || gap[0] === null ? "" : this.figure(g, 4, this.greatestGap);
   }
-  told() {
+  showValues() {
     const row = rowAt(this.times, this.t), exact = row >= 0 && this.times[row] === this.t;
     let text = `t = ${Number(this.t.toPrecision(exact ? 10 : 6))} ${data.units[2]}`;
     if (exact) {

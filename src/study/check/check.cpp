@@ -2,7 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "base/json.hpp"
+#include "base/text.hpp"
 #include "contact/friction.hpp"
 #include "contact/law.hpp"
 #include "mesh/mesh_quality.hpp"
@@ -54,6 +57,28 @@ void warn_of_lost_state(const Model& model, std::vector<std::string>& warnings) 
        model.units.length + "/" + model.units.time);
 }
 
+/// Warns of contacts at which the cutoff leaves out most of the structure's compliance. Their nodes follow their forces at once:
+/// slips then begin and end without the inertia of the modes left out, and add up over a run.
+void warn_of_cut_compliance(const Model& model, std::vector<std::string>& warnings) {
+  constexpr double most = 0.5;  // share of the compliance that may be left out; chosen value
+  std::vector<std::string> names;
+  double greatest = 0.0;
+  for (const ComplianceShare& share : model.reduction->shares) {
+    if (share.contact < 0 || !(share.residual > most * share.compliance)) continue;
+    greatest = std::max(greatest, share.residual / share.compliance);
+    const std::string& name = model.contacts[static_cast<std::size_t>(share.contact)].name;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  if (names.empty()) return;
+  warnings.push_back(
+      fmt::format("[reduction] leaves out up to {:.0f} % of the structure's compliance at {} {}: these nodes "
+                  "follow their "
+                  "forces at once, without inertia, so that slips and gaps may differ from those of the full "
+                  "model; raise "
+                  "the cutoff until they no longer change",
+                  100.0 * greatest, names.size() == 1 ? "contact" : "contacts", base::join_quoted(names, 5)));
+}
+
 }  // namespace
 
 CheckReport check(const Scene& scene, const Model& model) {
@@ -71,7 +96,10 @@ CheckReport check(const Scene& scene, const Model& model) {
     report.warnings.push_back(std::move(found));
   for (std::string& loose : checks::loose_parts(scene)) report.warnings.push_back(std::move(loose));
   report.rows = scene.run.grid().size();
-  if (model.reduction) warn_of_lost_state(model, report.warnings);
+  if (model.reduction) {
+    warn_of_lost_state(model, report.warnings);
+    warn_of_cut_compliance(model, report.warnings);
+  }
   measure_mass(scene, structure, report);
   report.free_motions = checks::free_motions(scene, structure, report.contacts);
   const auto frequencies = [&](const SparseMatrix& damping, const modes::ContactConstraints& holding) {

@@ -11,6 +11,7 @@
 #include "model/assembly/contacts.hpp"
 #include "model/assembly/dofs.hpp"
 #include "model/assembly/loads.hpp"
+#include "model/assembly/motion_names.hpp"
 #include "model/modes/constrained_structure.hpp"
 #include "model/modes/stability.hpp"
 #include "model/statics/free_motions.hpp"

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "scene/data_file.hpp"
+#include "scene/time_table.hpp"
 #include "signorini/error.hpp"
 
 namespace signorini::quake {

@@ -257,6 +257,12 @@ std::string difference(const SweepSpec& was, const SweepSpec& is) {
   if (was.settings != is.settings) return differ("--set", text_of(was.settings), text_of(is.settings));
   if (was.fingerprint != is.fingerprint)
     return fmt::format("the content of the scene {} has changed (earlier file: {})", is.scene, was.scene);
+  // The rest follows from the scene and the options, unless sweep.json was changed: units, columns, title.
+  const base::Json before = spec_json(was), now = spec_json(is);
+  for (const auto& [key, value] : now.items())
+    if (key != "scene" && key != "share" && before.at(key) != value)
+      return differ((key + " in sweep.json").c_str(), base::json_line(before.at(key)),
+                    base::json_line(value));
   return "";
 }
 

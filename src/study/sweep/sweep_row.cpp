@@ -35,7 +35,7 @@ void take_report(SweepRow& row, const Model& model, const Report& report) {
   row.wall_time = report.wall_time;
   row.steps = report.counters.steps;
   const Audit& audit = report.audit;
-  row.balance = audit.energy_scale > 0.0 ? audit.energy.value / audit.energy_scale : 0.0;
+  row.balance = audit.energy.value / audit.energy_reference();
   row.warnings = report.warnings.size();
 }
 

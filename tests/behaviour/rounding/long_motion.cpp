@@ -4,9 +4,13 @@
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <string>
 
+#include "base/rounding.hpp"
 #include "signorini/certify.hpp"
 #include "signorini/simulate.hpp"
 
@@ -83,9 +87,69 @@ long double closing_time(const LongSwing& s, double t) {
   return x;
 }
 
+/// A mass on a spring, carried by a belt: it sticks until the spring holds it, slips back and sticks again.
+struct Belt {
+  double mass, k, compression, fs, fk, v;
+
+  [[nodiscard]] long double period() const {
+    const long double w = std::sqrt(1.0L * k / mass), a = (1.0L * fs - fk) * compression / k;
+    return 2.0L * (std::numbers::pi_v<long double> - std::atan(a * w / v)) / w + 2.0L * a / v;
+  }
+  [[nodiscard]] std::string text(double t_end) const {
+    return fmt::format(
+        "schema = 1\nunits = {{ force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }}\n"
+        "[run]\nt_end = {0:.17g}\noutput_dt = {0:.17g}\nengine = \"exact\"\n"
+        "[nodes]\na = [0.0, 0.0]\n[[masses]]\nnode = \"a\"\nmass = {1:.17g}\n"
+        "[[supports]]\nnode = \"a\"\nfix = [\"uy\"]\n"
+        "[[springs]]\nnode = \"a\"\ndirection = [1.0, 0.0]\nstiffness = {2:.17g}\n"
+        "[[contacts]]\nname = \"b\"\nnode = \"a\"\nlaw = \"slider\"\ntangent = [1.0, 0.0]\nnormal_force = "
+        "{3:.17g}\n"
+        "friction = {{ static = {4:.17g}, kinetic = {5:.17g} }}\nsurface_velocity = {6:.17g}\n",
+        t_end, mass, k, compression, fs, fk, v);
+  }
+};
+
+constexpr Belt belts[] = {{1.0, 4.0, 10.0, 0.5, 0.3, 0.2},
+                          {0.37, 11.0, 7.0, 0.62, 0.41, 0.13},
+                          {2.9, 1.7, 3.3, 0.81, 0.44, 0.07},
+                          {0.053, 23.0, 1.9, 0.33, 0.2, 0.31},
+                          {1.3, 0.9, 12.0, 0.27, 0.19, 1.1}};
+
 }  // namespace
 
 TEST_SUITE_BEGIN("behaviour/rounding/long_motion");
+
+TEST_CASE("slips of belts keep their period over a thousand periods, and lie within their certified errors") {
+  for (const Belt& belt : belts)
+    for (const char* flow : {"taylor", "modal"}) {
+      CAPTURE(belt.v);
+      CAPTURE(flow);
+      const auto t_end = static_cast<double>(1000.0L * belt.period());
+      const Scene scene =
+          parse_scene(belt.text(t_end), "test.toml", {{"run.flow", flow}, {"run.certify", "true"}});
+      Result rows;
+      const CertifiedReport run = simulate_certified(build_model(scene), scene.run, rows);
+      REQUIRE(run.certificate);
+      std::optional<double> first;
+      long slips = 0, outside = 0, certain = 0;
+      long double drift = 0.0L;
+      for (std::size_t i = 0; i < rows.events.size(); ++i) {
+        const Event& e = rows.events[i];
+        if (e.type != EventType::slip || e.from != State::stick) continue;
+        if (!first) first = e.t;
+        const long double off = std::abs(e.t - (*first + static_cast<long double>(slips++) * belt.period()));
+        drift = std::max(drift, off);
+        if (!run.certificate->certain(i)) continue;
+        ++certain;
+        if (off > run.certificate->t_errors[i] + run.certificate->t_errors[0]) ++outside;
+      }
+      CHECK(slips >= 998);
+      CHECK(certain == slips);
+      CHECK(outside == 0);
+      // Each period has some 50 operations on numbers of its own size, and the time is known to one rounding.
+      CHECK(drift <= rounding::eps * (t_end + 50.0 * 1000.0 * static_cast<double>(belt.period())));
+    }
+}
 
 TEST_CASE("the rounding of a long way is within the certified error of the event at its end") {
   for (const LongSwing& swing : long_swings)

@@ -4,7 +4,6 @@
 
 #include <optional>
 
-#include "contact/law/user_law.hpp"
 #include "scene/quantities.hpp"
 
 namespace signorini::testing {
@@ -57,10 +56,10 @@ class Dump {
 };
 
 /// Of a law of one's own; empty: there is none.
-std::vector<double> stored_numbers(const std::shared_ptr<const UserContactLaw>& own) {
+std::vector<double> stored_numbers(const std::optional<ContactLawPtr>& own) {
   std::vector<double> numbers;
   if (!own) return numbers;
-  static_cast<void>(visit_law_constants(*own, [&](double& x, const Unit&) { numbers.push_back(x); }));
+  static_cast<void>((*own)->with_constants([&](double& x, const Unit&) { numbers.push_back(x); }));
   return numbers;
 }
 

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "own_folder.hpp"
-#include "scene/data_file.hpp"
 #include "scene/history_from_spec.hpp"
 #include "scene/saved_state.hpp"
+#include "scene/time_table.hpp"
 #include "signorini/model.hpp"
 
 namespace signorini::tests::records {
@@ -24,6 +24,15 @@ std::string refusal(const std::string& text, const scene::TableLayout& layout) {
     return error.what();
   }
   return "none";
+}
+
+/// A PEER file of acceleration, as `base_motion` takes it.
+scene::TableLayout peer(bool unit_given = false) {
+  scene::TableLayout layout;
+  layout.peer = true;
+  layout.wanted = scene::RecordQuantity::acceleration;
+  layout.unit_given = unit_given;
+  return layout;
 }
 
 const std::string heading = "PEER\nmade up\nACCELERATION TIME SERIES IN UNITS OF G\n";
@@ -42,14 +51,13 @@ TEST_CASE("a record of PEER, in g") {
     CHECK(quake.values[i] == doctest::Approx(in_g[i] * 9.80665).epsilon(1e-15));
   CHECK(quake.amplitude == 2.0);
   std::istringstream older(heading + "    3    0.0100   NPTS, DT\n 1 2 3\n");
-  const scene::TimeTable table = scene::read_time_table(older, "file", "key", {0, 0.0, true});
-  CHECK(table.in_g);
+  const scene::TimeTable table = scene::read_time_table(older, "file", "key", peer());
+  CHECK(table.unit.value().name == "g");
   CHECK(table.times == std::vector<double>{0.0, 0.01, 0.02});
-  CHECK(refusal(heading + "NPTS= 4, DT= .01\n1 2 3\n", {0, 0.0, true})
-            .find("expected 4, the number given by NPTS") != std::string::npos);
-  CHECK(
-      refusal(heading + "no numbers\n1 2 3\n", {0, 0.0, true}).find("in the fourth line of the PEER file") !=
-      std::string::npos);
+  CHECK(refusal(heading + "NPTS= 4, DT= .01\n1 2 3\n", peer()).find("expected 4, the number given by NPTS") !=
+        std::string::npos);
+  CHECK(refusal(heading + "no numbers\n1 2 3\n", peer()).find("in the fourth line of the PEER file") !=
+        std::string::npos);
 }
 
 TEST_CASE("columns, values alone, periods and shifts") {
@@ -114,7 +122,7 @@ TEST_CASE("a record of PEER in other units, and what is no acceleration") {
   };
   const auto factor = [&](const std::string& unit) {
     std::istringstream in(with("ACCELERATION TIME HISTORY IN UNITS OF " + unit));
-    return scene::read_time_table(in, "file", "key", {0, 0.0, true}).unit.value();
+    return scene::read_time_table(in, "file", "key", peer()).unit.value().si;
   };
   CHECK(factor("G") == 9.80665);
   CHECK(factor("cm/s/s") == 0.01);
@@ -125,9 +133,9 @@ TEST_CASE("a record of PEER in other units, and what is no acceleration") {
   CHECK(factor("M/S2") == 1.0);
   for (const char* unit :
        {"VELOCITY IN UNITS OF CM/S", "DISPLACEMENT IN UNITS OF CM", "IN UNITS OF", "IN UNITS OF GG"})
-    CHECK(refusal(with(unit), {0, 0.0, true}).find("file:3: key: found \"" + std::string(unit) + "\"") == 0);
-  CHECK(refusal(with("no unit"), {0, 0.0, true}).find("file:3:") == 0);
-  CHECK(refusal(with("no unit"), {0, 0.0, true, true}) == "none");  // the scene says it
+    CHECK(refusal(with(unit), peer()).find("file:3: key: found \"" + std::string(unit) + "\"") == 0);
+  CHECK(refusal(with("no unit"), peer()).find("file:3:") == 0);
+  CHECK(refusal(with("no unit"), peer(true)) == "none");  // the scene says it
 }
 
 TEST_CASE("a record in cm/s^2 is one in the scene's units, written out or not") {

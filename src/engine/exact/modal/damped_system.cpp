@@ -128,7 +128,7 @@ std::size_t max_state_terms(const Model& model) {
 std::string damped_refusal(const Model& model) {
   if (model.size() == 0) return "no degrees of freedom";
   for (const Contact& contact : model.contacts) {
-    if (!contact.obeys_coulomb()) return "user-defined laws";
+    if (!contact.has_linear_coulomb_law()) return "user-defined laws";
     if (contact.sliding_point()) return "shear elements";
     if (contact::friction_varies(contact)) return contact::friction_description(contact);
   }

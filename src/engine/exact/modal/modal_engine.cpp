@@ -86,6 +86,7 @@ void ModalEngine::start(const engine::Segment& segment) {
     taylor_.start(segment);
     return;
   }
+  if (decision.jet.t != t_) rest_ = 0.0;
   t_ = decision.jet.t;
   turning_points_.start(decision);
   has_works_ = false;
@@ -132,11 +133,12 @@ ModalEngine::ZeroCrossing ModalEngine::crossing_of(std::size_t slot, const motio
 
 /// Moves the end of the last part to the root of the guard, with forces computed from u and v as in the decision. In modes the
 /// guard is zero only up to the rounding of the modes, which exceeds the rounding bound of the decision. Returns the
-/// uncertainty of the time.
-double ModalEngine::refine_crossing(std::size_t slot) {
+/// uncertainty of the time. begin_rest: rest_ at the beginning of the part.
+double ModalEngine::refine_crossing(std::size_t slot, double begin_rest) {
   Part& part = parts_.back();
   for (int i = 0;; ++i) {
-    t_ = part.begin + part.length;
+    t_ = part.begin + (part.length + begin_rest);
+    rest_ = exact::rest_of_sum(part.begin, part.length + begin_rest, t_);
     Motion reached = motion(now_, true);
     motion::Point point;
     fill_rows(contact_shape_rows_, now_, reached, point);
@@ -161,10 +163,10 @@ engine::Step ModalEngine::advance() {
   last_turning_times_.clear();
   ++steps_;
   for (;;) {
-    const double remaining = segment_.end - t_;
+    const double begin_rest = rest_, remaining = segment_.end - t_ - begin_rest;
     const Passage passage = flow_->pass(now_, remaining);
     ++proofs_;
-    double end = t_ + passage.length;
+    double end = t_ + (passage.length + begin_rest);
     const bool last =
         !passage.triggered && (end >= segment_.end || segment_.end - end <= motion::resolution_at(end, 0.0));
     if (last) end = segment_.end;
@@ -179,16 +181,18 @@ engine::Step ModalEngine::advance() {
       return step;
     }
     warn_of_touches(passage, t_);
-    parts_.push_back({t_, end - t_, now_});
+    const double length = last ? remaining : passage.length;
+    parts_.push_back({t_, length, now_});
     ModalPoint next;
-    flow_->advance(now_, last ? remaining : passage.length, next);
+    flow_->advance(now_, length, next);
     if (peaks_)
       flow_->find_turning_points(now_, t_, passage.length, parts_.size() == 1, turning_points_,
                                  last_turning_times_);
     now_ = std::move(next);
+    rest_ = last ? 0.0 : exact::rest_of_sum(t_, length + begin_rest, end);
     t_ = end;
     if (passage.triggered) {
-      step.resolution = refine_crossing(*passage.triggered);
+      step.resolution = refine_crossing(*passage.triggered, begin_rest);
       step.kind = engine::Step::Kind::event;
       step.triggered = {{model_.layout.contact_of_guard(*passage.triggered),
                          segment_.decision->guards[*passage.triggered].kind, passage.unseen}};

@@ -82,7 +82,7 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
     double offset = 0.0, uncertainty = 0.0;  // time of the zero minus t_, and its error bound
   };
   [[nodiscard]] ZeroCrossing crossing_of(std::size_t slot, const motion::Point& point) const;
-  [[nodiscard]] double refine_crossing(std::size_t slot);
+  [[nodiscard]] double refine_crossing(std::size_t slot, double begin_rest);
   void update_cancellation();
   void warn_of_touches(const Passage& passage, double begin);
 
@@ -102,7 +102,8 @@ class ModalEngine final : public engine::Stepper, public engine::DenseOutput, pr
   std::vector<Part> parts_;  // parts of the last step
   ModalPoint now_;           // point at the end of the last step
   double t_ = 0.0;
-  Vector q_, rate_;  // amplitudes and rates at the end of the last step
+  double rest_ = 0.0;  // exact time of now_ minus t_
+  Vector q_, rate_;    // amplitudes and rates at the end of the last step
   motion::Point end_;
   // Largest norms |u|_M and |v|_M of the motion so far.
   double max_displacement_ = 0.0, max_velocity_ = 0.0;

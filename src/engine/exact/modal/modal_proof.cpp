@@ -360,9 +360,9 @@ void ModalProof::bound_fast_modes() {
   for (Watched& guard : guards_) {
     guard.fast_bound = guard.fast_rate_bound = 0.0;
     for (std::size_t k = fast_; k < l.size(); ++k) {
-      const double ripple = weight_of(guard, k) * amplitude_[k];
-      guard.fast_bound += ripple;
-      guard.fast_rate_bound += ripple * std::sqrt(l[k]);
+      const double fast_part = weight_of(guard, k) * amplitude_[k];
+      guard.fast_bound += fast_part;
+      guard.fast_rate_bound += fast_part * std::sqrt(l[k]);
     }
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       if (pair_slow_[k]) continue;
@@ -371,10 +371,10 @@ void ModalProof::bound_fast_modes() {
       const double growth =
           std::exp(std::abs(complex_sqrt(pairs[k] - Complex(0.25 * alpha_ * alpha_)).im) * h_);
       const double order = order_of(guard);
-      const double ripple = 2.0 * growth * pair_amplitude_[k] * std::pow(root, order) *
-                            (size_of(guard.place.pair[k]) + size_of(guard.rate.pair[k]) * root);
-      guard.fast_bound += ripple;
-      guard.fast_rate_bound += ripple * root;
+      const double fast_part = 2.0 * growth * pair_amplitude_[k] * std::pow(root, order) *
+                               (size_of(guard.place.pair[k]) + size_of(guard.rate.pair[k]) * root);
+      guard.fast_bound += fast_part;
+      guard.fast_rate_bound += fast_part * root;
     }
   }
 }

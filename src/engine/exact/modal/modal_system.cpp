@@ -31,7 +31,7 @@ constexpr double max_work_error = 1e-12;
 std::string coupling_refusal(const Model& model) {
   if (model.size() == 0) return "no degrees of freedom";
   for (const Contact& contact : model.contacts) {
-    if (!contact.obeys_coulomb()) return "user-defined laws";
+    if (!contact.has_linear_coulomb_law()) return "user-defined laws";
     if (contact.takes_impulses()) return "rigid contacts";
     if (contact.sticks_rigidly()) return "contacts that stick without a tangential stiffness";
     if (contact.sliding_point()) return "shear elements";
@@ -192,13 +192,13 @@ ModalProof::WatchedValues ModalProof::fast_bounds(std::size_t c, bool of_rate) c
 ModalProof::WatchedValues ModalProof::monotone_parts(std::size_t c, double x_end,
                                                      std::vector<double>& p) const {
   const ForceLaw& law = laws_[c];
-  const WatchedValues ripple = fast_bounds(c, true);
+  const WatchedValues fast_bound = fast_bounds(c, true);
   const auto goes = [&](motion::ContactSeries::Field rate, double off) {
     const double* a = slow_[c].coefficients(rate);
     return stays_above(a, degree_, x_end, a[0] < 0.0 ? -1.0 : 1.0, -off, p);
   };
-  const double gap = goes(motion::ContactSeries::vn, ripple[2]),
-               ut = goes(motion::ContactSeries::vt, ripple[3]);
+  const double gap = goes(motion::ContactSeries::vn, fast_bound[2]),
+               ut = goes(motion::ContactSeries::vt, fast_bound[3]);
   const double N = law.N_gap != 0.0 ? gap : 1.0;
   const double T = std::min(law.T_gap != 0.0 ? gap : 1.0, law.T_ut != 0.0 ? ut : 1.0);
   return {N, T, gap, ut};
@@ -210,19 +210,19 @@ double ModalProof::length_without_turning(const ModalPoint& /*at*/, const events
   std::vector<double> p(degree_ + 1);
   double safe = 1.0;  // relative to x_end
   for (std::size_t c = 0; c < slow_.size() && safe > 0.0; ++c) {
-    const WatchedValues ripple = fast_bounds(c, false), forth = monotone_parts(c, x_end, p);
+    const WatchedValues fast_bound = fast_bounds(c, false), forth = monotone_parts(c, x_end, p);
     const WatchedValues unsure = errors_by_law(laws_[c], rounding::elimination * normal_size_[c].place,
                                                rounding::elimination * tangent_size_[c].place);
-    for (std::size_t f = 0; f < ripple.size(); ++f) {
+    for (std::size_t f = 0; f < fast_bound.size(); ++f) {
       const events::TurningPointDetector::Range& range =
           known.range(c, events::TurningPointDetector::watched_fields[f]);
       const double* a = slow_[c].coefficients(events::TurningPointDetector::watched_fields[f]);
       // `unsure` covers rounding: find_turning_at_start() sums the slope in another order, so a slope that is only a rounding
       // error may have the opposite sign there.
-      if (range.is_exceeded(a[0], a[1], ripple[f] + unsure[f])) return 0.0;
+      if (range.is_exceeded(a[0], a[1], fast_bound[f] + unsure[f])) return 0.0;
       if (forth[f] >= safe) continue;
       for (const double sign : {-1.0, 1.0}) {
-        const double room = (sign < 0.0 ? range.greatest : -range.least) - ripple[f];
+        const double room = (sign < 0.0 ? range.greatest : -range.least) - fast_bound[f];
         safe = std::min(safe, std::max(forth[f], stays_above(a, degree_, x_end, sign, room, p)));
       }
     }

@@ -155,7 +155,7 @@ TimeBasis::FastWaveBound TimeBasis::taylor(const TimeCoefficients& c, double x0,
     }
     p[k] = sum * power;
   }
-  FastWaveBound ripple;
+  FastWaveBound bound;
   auto i = static_cast<Eigen::Index>(degree_) + 1;
   for (const double w : omega_) {
     const double a = c[i], b = c[i + 1];
@@ -163,8 +163,8 @@ TimeBasis::FastWaveBound TimeBasis::taylor(const TimeCoefficients& c, double x0,
     if (a == 0.0 && b == 0.0) continue;
     if (w * h > turn) {
       const double size = std::hypot(a, b);
-      ripple.value += size;
-      ripple.rate += size * w;
+      bound.value += size;
+      bound.rate += size * w;
       continue;
     }
     double even = a * std::cos(w * x0) + b * std::sin(w * x0),
@@ -177,9 +177,9 @@ TimeBasis::FastWaveBound TimeBasis::taylor(const TimeCoefficients& c, double x0,
       even = odd;
       odd = next;
     }
-    ripple.rest += 2.0 * factor * std::hypot(a, b);
+    bound.rest += 2.0 * factor * std::hypot(a, b);
   }
-  return ripple;
+  return bound;
 }
 
 Eigen::MatrixXd TimeBasis::products(double x0, double x1) const {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "model/assembly/motion_names.hpp"
 #include "unit/model/scenes.hpp"
 
 namespace signorini::tests::motion_name_tests {

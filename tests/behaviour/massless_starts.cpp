@@ -121,15 +121,13 @@ TEST_CASE("halves of a contact that lands by a load's jump slip when the whole d
       if (event.contact == contact) list.push_back(event.t);
     return list;
   };
-  for (const int contact : {0, 1}) {
-    const std::vector<double> expected = times(one, contact);
-    REQUIRE(expected.size() > 3);
-    for (const int half : {2 * contact, 2 * contact + 1}) {
-      const std::vector<double> found = times(two, half);
-      REQUIRE(found.size() == expected.size());
-      for (std::size_t i = 0; i < found.size(); ++i)
-        CHECK(found[i] == doctest::Approx(expected[i]).epsilon(1e-10));
-    }
+  const std::vector<double> expected = times(one, 1);
+  REQUIRE(expected.size() > 5);
+  for (const int half : {2, 3}) {
+    const std::vector<double> found = times(two, half);
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+      CHECK(found[i] == doctest::Approx(expected[i]).epsilon(1e-10));
   }
 }
 

@@ -34,6 +34,10 @@ struct Comparison {
   Result result;
 };
 
+/// Difference of the displacements at t = 0: a motion without stiffness that only friction holds in a static start. The
+/// reference holds it at its first contact, the program shares it among the contacts; later motions differ by it, too.
+[[nodiscard]] Vector moved_start(const Model& model, const Table& samples, const Result& result);
+
 /// Runs tests/cases/NAME.toml with overrides; compares what has an answer.
 [[nodiscard]] Comparison run_case(const std::string& name, const std::vector<Override>& overrides = {});
 

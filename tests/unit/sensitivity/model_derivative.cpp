@@ -67,6 +67,37 @@ TEST_CASE("what goes as 1/p^3, and an equilibrium, against differences of a hund
   CHECK(start.norm() > 0.0);
 }
 
+TEST_CASE("a start whose feet share a free motion, against differences") {
+  // Two bars from the ridge C to feet that the weight spreads against a spring, and a slider that is pressed, too.
+  const std::string text =
+      "schema = 1\nunits = { force = \"N\", mass = \"kg\", length = \"m\", time = \"s\" }\ngravity = [0.0, "
+      "-10.0]\n[run]\nt_end = 1.0\ninitial = \"static\"\n[sections.bar]\nEA = 1e4\nmass_per_length = 0.3\n"
+      "[nodes]\nA = [0.0, 0.0]\nB = [2.0, 0.1]\nC = [0.5, 1.0]\n[[masses]]\nnode = \"C\"\nmass = 8.0\n"
+      "[[masses]]\nnode = \"A\"\nmass = 4.0\n[[members]]\nnodes = [\"A\", \"C\"]\nsection = \"bar\"\ntype "
+      "= \"bar\"\n[[members]]\nnodes = [\"B\", \"C\"]\nsection = \"bar\"\ntype = \"bar\"\n[[springs]]\nnode "
+      "= "
+      "\"B\"\nagainst = \"A\"\ndirection = [1.0, 0.0]\nstiffness = 5e3\n[[contacts]]\nname = \"A\"\nnode = "
+      "\"A\"\nlaw = \"compliant\"\nnormal = [0.0, 1.0]\nnormal_stiffness = 4e4\nfriction = "
+      "0.5\ntangential_stiffness = 1e4\n[[contacts]]\nname = \"B\"\nnode = \"B\"\nlaw = \"rigid\"\nnormal = "
+      "[0.0, 1.0]\nfriction = 0.2\n[[contacts]]\nname = \"pad\"\nnode = \"C\"\nlaw = \"slider\"\ntangent = "
+      "[0.8, 0.6]\nnormal_force = 30.0\nfriction = 0.2\ntangential_stiffness = 1e3\n";
+  const SceneReader read = [text](const std::vector<Override>& changes) {
+    return parse_scene(text, "spread.toml", changes);
+  };
+  for (const char* path :
+       {"springs.1.stiffness", "masses.2.mass", "sections.bar.EA", "contacts.A.normal_stiffness",
+        "contacts.pad.normal_force", "nodes.C.0", "nodes.C.1", "nodes.B.0"}) {
+    CAPTURE(path);
+    const sensitivity::ModelDerivative d = of(read, path);
+    const double value = sensitivity::value_of(read({}), path), h = 1e-4 * value;
+    const Model a = computed(read, {sensitivity::set_to(path, value - h)}),
+                b = computed(read, {sensitivity::set_to(path, value + h)});
+    const Vector start = (b.u0 - a.u0) / (2.0 * h);
+    CHECK((d.u0 - start).norm() <= 1e-6 * start.norm());
+    CHECK(start.norm() > 0.0);
+  }
+}
+
 TEST_CASE("rows and guards of a contact by its friction") {
   const sensitivity::ModelDerivative d = of(beam_reader(), "contacts.c.friction");
   const sensitivity::ContactRates& c = d.contacts[0];

@@ -156,7 +156,7 @@ bool BranchContinuation::add(const CorrectedPoint& here, const std::string& spec
   BranchPoint point;
   point.parameter = map_.parameter(here.state.s);
   point.period = here.state.duration * model.unit.time;
-  point.amplitude = here.pass.amplitude;
+  point.amplitude = next.done() ? next.amplitude : here.pass.amplitude;
   point.max_multiplier = orbit.max_multiplier;
   point.multiplier_error = orbit.multiplier_error;
   point.stable = orbit.stable;

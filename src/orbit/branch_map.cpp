@@ -179,7 +179,9 @@ OrbitState BranchMap::projected(OrbitState state, const contact::ContactStates& 
 }
 
 OrbitPass BranchMap::pass(const BranchState& state, bool tangents, bool outputs) const {
-  return at(state.s)->pass({state.state, state.duration, tangents, outputs});
+  PassOptions leg{state.state, state.duration, tangents, outputs};
+  if (outputs) leg.nodes = PassOptions::reported_nodes;  // the pass of a point of the branch
+  return at(state.s)->pass(leg);
 }
 
 OrbitPass BranchMap::margins(const BranchState& state) const {

@@ -8,8 +8,6 @@
 namespace signorini::orbit {
 namespace {
 
-// Nodes of one pass. Chosen value: the cubic between two of them then has an error of 1e-7 of a sine of the period.
-constexpr double nodes_per_pass = 96.0;
 // Limit of the evaluations between two nodes; a second one is needed only if two displacements turn there.
 constexpr int most_refinements = 4;
 
@@ -37,8 +35,8 @@ struct Cubic {
 
 }  // namespace
 
-DisplacementRange::DisplacementRange(const Model& model, double duration)
-    : model_(model), spacing_(duration / nodes_per_pass) {
+DisplacementRange::DisplacementRange(const Model& model, double duration, int nodes)
+    : model_(model), spacing_(duration / nodes) {
   const std::vector<Dof>& dofs = model.physical_dofs();
   for (std::size_t i = 0; i < dofs.size(); ++i)
     if (!dofs[i].rotation) translations_.push_back(static_cast<Eigen::Index>(i));

@@ -349,7 +349,9 @@ void Search::report(const orbit::OrbitState& at_section, double section) {
     start = orbit::orbit_state(from_section.pass({at_section, shot_.duration - section, false}).end);
   const Result rows = map.rows(start, shot_.duration);
   orbit_.start = last_state(orbit::with_shifted_excitation(given_, orbit_.phase), rows);
-  const orbit::OrbitPass once = from_section.pass({at_section, shot_.duration, false});
+  orbit::PassOptions leg{at_section, shot_.duration, false};
+  leg.nodes = orbit::PassOptions::reported_nodes;
+  const orbit::OrbitPass once = from_section.pass(leg);
   orbit_.sequence = events_from_time_zero(once.events, orbit_.section, orbit_.period);
   orbit_.cycle = once.cycle_energy;
   orbit_.amplitude = once.amplitude;

@@ -182,7 +182,7 @@ class Follower final : public run::RunListener {
         pass_(pass),
         flow_(flow),
         share_{&kept, nullptr},
-        range_(model, leg.duration) {}
+        range_(model, leg.duration, leg.nodes) {}
 
   /// Peaks inside steps are not needed: extremes of outputs are searched separately.
   [[nodiscard]] run::ListenerNeeds needs() { return {&share_, false}; }

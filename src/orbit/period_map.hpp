@@ -54,6 +54,10 @@ struct PassOptions {
   /// Number of samples from which u_amplitude, v_amplitude and T_amplitude are computed. Chosen value: they only scale the
   /// residual.
   int samples = 24;
+  /// Number of nodes between which OrbitPass::amplitude is searched (displacement_range.hpp). Chosen values; `reported_nodes` for
+  /// results, few for passes that only compare orbits.
+  int nodes = 96;
+  static constexpr int reported_nodes = 960;
 };
 
 class PeriodMap {

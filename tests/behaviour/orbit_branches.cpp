@@ -233,7 +233,8 @@ TEST_CASE("a branch of the pipeline over the frequency: fast mode shapes do not 
     range = std::max(range, high - low);
   }
   CHECK(std::abs(last.amplitude - 0.5 * range) <= 1e-3 * range);  // the rows are 1/200 of the period apart
-  CHECK(std::abs(branch.points.back().amplitude - last.amplitude) <= 1e-8 * range);
+  // Both start from another place of the orbit, so that modes with few places in a period are seen at others.
+  CHECK(std::abs(branch.points.back().amplitude - last.amplitude) <= 1e-5 * range);
   CHECK(branch.points.back().events == static_cast<long>(last.sequence.size()));
   CHECK(std::abs(branch.points.back().max_multiplier - last.max_multiplier) <= 1e-6);
 }

@@ -233,8 +233,9 @@ TEST_CASE("a branch of the pipeline over the frequency: fast mode shapes do not 
     range = std::max(range, high - low);
   }
   CHECK(std::abs(last.amplitude - 0.5 * range) <= 1e-3 * range);  // the rows are 1/200 of the period apart
-  // Both start from another place of the orbit, so that modes with few places in a period are seen at others.
-  CHECK(std::abs(branch.points.back().amplitude - last.amplitude) <= 1e-5 * range);
+  // Both start from another place of the orbit, so that fast modes that ride on the motion are seen at other places: with 96
+  // places in the period they made a difference of 6e-5 of the range.
+  CHECK(std::abs(branch.points.back().amplitude - last.amplitude) <= 3e-5 * range);
   CHECK(branch.points.back().events == static_cast<long>(last.sequence.size()));
   CHECK(std::abs(branch.points.back().max_multiplier - last.max_multiplier) <= 1e-6);
 }

@@ -257,24 +257,27 @@ base::Json names(const std::vector<NamedGuard>& guards, const Model& model, bool
 
 namespace {
 
-/// Errors: FileError for a named pipe that no program reads; opening it would wait for a reader.
-void check_reader(const std::filesystem::path& path) {
+/// Opens a named pipe that some program reads; -1 for other files. The caller closes it after its own opening, because a reader
+/// that sees no writer left ends. Errors: FileError if no program reads the pipe; opening it would wait for a reader.
+int open_if_pipe(const std::filesystem::path& path) {
   std::error_code error;
-  if (!std::filesystem::is_fifo(path, error)) return;
+  if (!std::filesystem::is_fifo(path, error)) return -1;
   const int pipe = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
   if (pipe < 0 && errno == ENXIO)
     throw FileError(path.string(), "is a pipe that no program reads; start its reader first, or give a file");
-  if (pipe >= 0) ::close(pipe);
+  return pipe;
 }
 
 }  // namespace
 
 TraceWriter::TraceWriter(const std::filesystem::path& path, const Model& model) : model_(model), path_(path) {
   base::check_output_file(path, "trace", R"(,"round":1,"fired":[)");
-  check_reader(path);
+  const int pipe = open_if_pipe(path);
   errno = 0;
   file_.open(path);
-  if (!file_) throw FileError(path.string(), "cannot be created" + base::system_error_text(errno));
+  const int error = errno;
+  if (pipe >= 0) ::close(pipe);
+  if (!file_) throw FileError(path.string(), "cannot be created" + base::system_error_text(error));
 }
 
 void TraceWriter::write(const DecisionRound& round) {

@@ -81,7 +81,7 @@ struct CertifiedReport {
   std::optional<Certificate> certificate;
   std::string reason;  ///< reason why there is no certificate, one sentence
   /// Present only for a reduced model: neither the run nor its certificate contains the modes that are left out.
-  std::optional<Truncation> reduction;
+  std::optional<Truncation> reduction = {};
 };
 
 struct CertifyOptions {

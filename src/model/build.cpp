@@ -131,6 +131,13 @@ const SavedState* continued_run(const Scene& scene) {
   return saved && saved->structure_differences.empty() ? &*saved : nullptr;
 }
 
+bool has_pendulums(const Scene& scene) {
+  return std::any_of(scene.springs.begin(), scene.springs.end(),
+                     [](const Spring& s) { return s.restoring; }) ||
+         std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                     [](const ContactSpec& c) { return c.pendulum_surface.has_value(); });
+}
+
 /// Sets alpha, beta and C. dampers: C without alpha M + beta K.
 void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) {
   const DampingSpec& spec = scene.damping;
@@ -150,7 +157,7 @@ void set_damping(const Scene& scene, const SparseMatrix& dampers, Model& model) 
   model.damping = dampers;
   if (model.alpha != 0.0) model.damping = SparseMatrix(model.damping + model.alpha * model.mass);
   if (model.beta != 0.0) model.damping = SparseMatrix(model.damping + model.beta * model.stiffness);
-  model.damping.prune(0.0);  // damping that was excluded from beta K leaves zeros
+  if (has_pendulums(scene)) model.damping.prune(0.0);  // their part of beta K is excluded, and leaves zeros
 }
 
 /// Finds the initial state; for run.geometric also the prestress, whose geometric stiffness is added to K.
@@ -267,13 +274,6 @@ void exclude_restoring_damping(const Scene& scene, const DofMap& map, const Mode
   assembly.dampers -= beta * assembly::with_springs(restoring.stiffness, more);
   for (std::size_t i = 0; i < assembly.moving.size(); ++i)
     assembly.moving[i].dampers -= beta * restoring.moving[i].stiffness;
-}
-
-bool has_pendulums(const Scene& scene) {
-  return std::any_of(scene.springs.begin(), scene.springs.end(),
-                     [](const Spring& s) { return s.restoring; }) ||
-         std::any_of(scene.contacts.begin(), scene.contacts.end(),
-                     [](const ContactSpec& c) { return c.pendulum_surface.has_value(); });
 }
 
 /// Scales of the saved run that the scene continues; if there is none, scales computed from the model.

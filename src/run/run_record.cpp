@@ -202,7 +202,8 @@ void RunRecord::after(const RunInstant& now, const std::optional<std::vector<std
 void RunRecord::add_curves(double t, const contact::ContactStates& states, const motion::Point& point,
                            const RunStep* step) {
   works_.clear();
-  if (step != nullptr && t < step->step.end) step->motion.integrate(t, step->step.end, works_);
+  const double end = step != nullptr ? stopped_at_.value_or(step->step.end) : t;
+  if (t < end) step->motion.integrate(t, end, works_);
   curves_.add(t, point.u, auditor_.energy_before(works_, states, point));
 }
 

@@ -12,23 +12,23 @@ namespace signorini::scene {
 
 namespace {
 
-using enum RecordQuantity;
+using Quantity = RecordQuantity;
 
 struct SpelledUnit {
   std::string_view spelling;
   RecordUnit unit;
 };
-constexpr SpelledUnit spelled_units[] = {{"G", {"g", acceleration, standard_gravity}},
-                                         {"M/S/S", {"m/s^2", acceleration, 1.0}},
-                                         {"CM/S/S", {"cm/s^2", acceleration, 0.01}},
-                                         {"GAL", {"cm/s^2", acceleration, 0.01}},
-                                         {"MM/S/S", {"mm/s^2", acceleration, 0.001}},
-                                         {"M/S", {"m/s", velocity, 1.0}},
-                                         {"CM/S", {"cm/s", velocity, 0.01}},
-                                         {"MM/S", {"mm/s", velocity, 0.001}},
-                                         {"M", {"m", displacement, 1.0}},
-                                         {"CM", {"cm", displacement, 0.01}},
-                                         {"MM", {"mm", displacement, 0.001}}};
+constexpr SpelledUnit spelled_units[] = {{"G", {"g", Quantity::acceleration, standard_gravity}},
+                                         {"M/S/S", {"m/s^2", Quantity::acceleration, 1.0}},
+                                         {"CM/S/S", {"cm/s^2", Quantity::acceleration, 0.01}},
+                                         {"GAL", {"cm/s^2", Quantity::acceleration, 0.01}},
+                                         {"MM/S/S", {"mm/s^2", Quantity::acceleration, 0.001}},
+                                         {"M/S", {"m/s", Quantity::velocity, 1.0}},
+                                         {"CM/S", {"cm/s", Quantity::velocity, 0.01}},
+                                         {"MM/S", {"mm/s", Quantity::velocity, 0.001}},
+                                         {"M", {"m", Quantity::displacement, 1.0}},
+                                         {"CM", {"cm", Quantity::displacement, 0.01}},
+                                         {"MM", {"mm", Quantity::displacement, 0.001}}};
 
 std::string upper(std::string_view text) {
   std::string result;
@@ -80,10 +80,10 @@ std::optional<double> number_after(std::string_view text, std::string_view mark)
 
 RecordQuantity quantity_in(std::string_view upper_text) {
   constexpr std::pair<std::string_view, RecordQuantity> words[] = {
-      {"ACCEL", acceleration}, {"VELOC", velocity}, {"DISPL", displacement}};
+      {"ACCEL", Quantity::acceleration}, {"VELOC", Quantity::velocity}, {"DISPL", Quantity::displacement}};
   for (const auto& [word, quantity] : words)
     if (upper_text.find(word) != std::string_view::npos) return quantity;
-  return none;
+  return Quantity::none;
 }
 
 /// Adds the unit after the first of the marks that the line has. True if it has one.
@@ -122,17 +122,17 @@ int format_width(std::string_view upper_text) {
 }  // namespace
 
 const char* name_of(RecordQuantity quantity) {
-  return quantity == acceleration   ? "acceleration"
-         : quantity == velocity     ? "velocity"
-         : quantity == displacement ? "displacement"
-                                    : "values";
+  return quantity == Quantity::acceleration   ? "acceleration"
+         : quantity == Quantity::velocity     ? "velocity"
+         : quantity == Quantity::displacement ? "displacement"
+                                              : "values";
 }
 
 const char* units_of(RecordQuantity quantity) {
-  return quantity == acceleration   ? "G, CM/S/S, M/S/S, MM/S/S or GAL"
-         : quantity == velocity     ? "CM/S, M/S or MM/S"
-         : quantity == displacement ? "CM, M or MM"
-                                    : "none";
+  return quantity == Quantity::acceleration   ? "G, CM/S/S, M/S/S, MM/S/S or GAL"
+         : quantity == Quantity::velocity     ? "CM/S, M/S or MM/S"
+         : quantity == Quantity::displacement ? "CM, M or MM"
+                                              : "none";
 }
 
 std::optional<RecordUnit> record_unit(std::string_view text) {
@@ -164,8 +164,8 @@ bool add_peer_line(std::string_view line, RecordHeader& header) {
   const RecordQuantity found = quantity_in(text);
   const std::size_t first = text.find_first_not_of(" \t");
   // In a title, such as the name of a station, these words mean nothing: the quantity begins the line or has a unit.
-  const bool begins = first != std::string::npos && quantity_in(text.substr(first, 5)) != none;
-  if (found != none && (names_unit || begins)) header.quantity = found;
+  const bool begins = first != std::string::npos && quantity_in(text.substr(first, 5)) != Quantity::none;
+  if (found != Quantity::none && (names_unit || begins)) header.quantity = found;
   return names_unit || begins;
 }
 
@@ -177,7 +177,7 @@ std::optional<RecordHeader> block_header(std::string_view line) {
   const auto points = leading_number(text);
   RecordHeader header;
   header.quantity = quantity_in(text);
-  if (!(csmip || cosmos) || !is_count(points) || header.quantity == none) return std::nullopt;
+  if (!(csmip || cosmos) || !is_count(points) || header.quantity == Quantity::none) return std::nullopt;
   header.points = static_cast<std::size_t>(*points);
   if (csmip) header.time_step = std::max(number_after(text, "EQUALLY SPACED AT").value_or(0.0), 0.0);
   add_unit(text, {"UNITS=", "UNITS:", ", IN ", " IN "}, header);

@@ -104,10 +104,10 @@ class TableReader {
     const bool numbers = std::all_of(words.begin(), words.end(), [](const TableWord& word) {
       return base::parse_number(word.text).has_value();
     });
-    if (numbers)
+    if (numbers && words.size() != 2)
       help = words.size() == 1 ? "; for a file of values only give time_step"
                                : "; give column for a file of several columns, time_step for values only";
-    else if (table_.times.empty())
+    else if (!numbers && table_.times.empty())
       help = "; a heading has one line, and other lines of text begin with #";
     lines_.fail(fmt::format("found \"{}\", expected two numbers, time and value{}", found, help));
   }

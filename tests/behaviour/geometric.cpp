@@ -266,6 +266,26 @@ TEST_CASE("a string of bars: what only its tension holds, by a force, by cold an
     }
 }
 
+TEST_CASE(
+    "in tension the load factors are negative: a tie buckles under loads of the other sign, many elements "
+    "alike") {
+  for (const Ends& ends : four_ends()) {
+    CAPTURE(std::string(ends.name));
+    const double P = 0.3 * euler(ends.free_length);
+    // 100 elements have more degrees of freedom than the dense solver takes.
+    for (const int n : {16, 100}) {
+      CAPTURE(n);
+      const Model pulled = built(column(ends.supports, n, -P)), pushed = built(column(ends.supports, n, P));
+      REQUIRE(pulled.geometric->load_factors.size() == 5);
+      for (std::size_t i = 0; i < 5; ++i)
+        CHECK(pulled.geometric->load_factors[i] ==
+              doctest::Approx(-pushed.geometric->load_factors[i]).epsilon(1e-7));
+      CHECK(pulled.geometric->load_factors[0] * P == doctest::Approx(-euler(ends.free_length)).epsilon(1e-4));
+      for (const std::string& warning : pulled.warnings) CHECK(warning.find("unstable") == std::string::npos);
+    }
+  }
+}
+
 TEST_CASE("a long string of short bars, whose directions round more: it is held, and nothing drives it") {
   const double S = 3.0, m = 0.02, l = 0.01, angle = 0.7;
   constexpr int n = 300;

@@ -28,9 +28,10 @@ class DiscLaw final : public ModifiedLaw {
 
 /// The slider with tangential stiffness, as data. products: the friction limit as one guard; which way the contact slips is
 /// decided by the sign of T.
-std::shared_ptr<UserContactLaw> data_slider(double kt, double fs, double fk, bool products) {
+std::shared_ptr<UserContactLaw> data_slider(double stiffness, double fs, double fk, bool products) {
   using enum State;
-  const UserLawForm given{{.N = 1.0, .applied_normal_force = 1.0}}, held{{.T = 1.0, .ut = -kt}, kt};
+  const UserLawForm given{{.N = 1.0, .applied_normal_force = 1.0}},
+      held{{.T = 1.0, .ut = -stiffness}, stiffness};
   const Form minus{.T = 1.0, .applied_normal_force = fs}, plus{.T = -1.0, .applied_normal_force = fs};
   auto law = std::make_shared<UserContactLaw>();
   law->normal_force_given = true;
@@ -39,12 +40,13 @@ std::shared_ptr<UserContactLaw> data_slider(double kt, double fs, double fk, boo
   else
     law->states.push_back({"rests", stick, given, held, {{{plus}, 1}, {{minus}, 2}}});
   for (const double s : {1.0, -1.0})
-    law->states.push_back(
-        {"slides",
-         s > 0.0 ? slip_plus : slip_minus,
-         given,
-         {{.N = s * fk, .T = 1.0}},
-         {{{{.vt = s, .applied_normal_force_rate = -fk / kt}}, 0, Form{.T = -1.0 / kt, .ut = 1.0}}}});
+    law->states.push_back({"slides",
+                           s > 0.0 ? slip_plus : slip_minus,
+                           given,
+                           {{.N = s * fk, .T = 1.0}},
+                           {{{{.vt = s, .applied_normal_force_rate = -fk / stiffness}},
+                             0,
+                             Form{.T = -1.0 / stiffness, .ut = 1.0}}}});
   if (products)
     law->states.push_back({"leaves", stick, given, held, {{{{.T = 1.0}}, 2}, {{{.T = -1.0}}, 1}}});
   return law;
@@ -126,18 +128,18 @@ void check_same(const Result& linear, const Result& disc, double relative) {
 }
 
 std::vector<SliderCase> cases() {
-  const std::string kt = "tangential_stiffness = 900.0";
+  const std::string spring_key = "tangential_stiffness = 900.0";
   const std::string drop = "{ static = 0.5, kinetic = 0.3 }";
   const std::string varying = "{ type = \"harmonic\", offset = 10.0, amplitude = 4.0, omega = 7.0 }";
   const std::string ramp = "{ type = \"polynomial\", coefficients = [14.0, -3.0] }";
   const std::string belt = "{ type = \"harmonic\", offset = 0.05, amplitude = 0.2, omega = 3.0 }";
   std::vector<SliderCase> all;
-  for (const std::string& spring : {std::string(), kt})
+  for (const std::string& spring : {std::string(), spring_key})
     for (const std::string& friction : {std::string("0.4"), drop})
       for (const std::string& force : {std::string("10.0"), varying, ramp})
         for (const std::string& surface : {std::string("0.0"), belt})
           all.push_back({friction, force, surface, spring});
-  all.push_back({"0.4", varying, belt, kt, 0.0});
+  all.push_back({"0.4", varying, belt, spring_key, 0.0});
   all.push_back({drop, varying, belt, "", 2.2});
   return all;
 }

@@ -78,6 +78,25 @@ TEST_CASE("cli orbit: a run of one period, its multipliers, and a run.toml that 
   }
 }
 
+TEST_CASE("cli orbit: the first interrupt ends it while it draws, and the orbit and the branch are kept") {
+  for (const std::string over : {"", " --over loads.1.amplitude=2.9:3.0"}) {
+    CAPTURE(over);
+    const Shell shell;
+    shell.write("s.toml", rubbed(harmonic(), "initial = { u = [0.3], v = [0.1] }"));
+    std::filesystem::create_directory(shell / "bin");
+    shell.write("bin/gnuplot", "#!/bin/sh\ntouch '" + (shell / "drawing").string() + "'\nexec sleep 45\n");
+    std::filesystem::permissions(shell / "bin/gnuplot", std::filesystem::perms::owner_all);
+    const auto begin = std::chrono::steady_clock::now();
+    CHECK(line(shell, "PATH=\"$PWD/bin:$PATH\"; $SIGNORINI orbit s.toml" + over +
+                          " >.out 2>.err & p=$!; i=0; while [ $i -lt 400 ] && ! [ -e drawing ]; do sleep "
+                          "0.1; i=$((i + 1)); "
+                          "done; kill -INT $p; wait $p") == 130);
+    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(40));
+    CHECK(exists(shell, "drawing"));
+    CHECK(exists(shell, over.empty() ? "s-orbit/orbit.json" : "s-orbit/branch.json"));
+  }
+}
+
 TEST_CASE("cli orbit: no period, no orbit and a wrong range have their exit codes and reasons") {
   const Shell shell;
   shell.write("still.toml", rubbed(""));

@@ -102,7 +102,8 @@ TEST_CASE("cli: a name of a file with NUL opens no other file") {
   shell.write("a.csv", "t,f\n0,0\n1,1\n");
   fs::create_directory(shell / "old-run");
   const std::string load =
-      "[[loads]]\nnode = \"block\"\ndirection = [1.0, 0.0]\nhistory = { type = \"table\", file = "
+      "[[loads]]\nnode = \"block\"\ndirection = [1.0, 0.0]\namplitude = 1.0\nhistory = { type = \"table\", "
+      "file = "
       "\"a.csv\\u0000.gone\" }\n";
   shell.write("file.toml", belt(5) + load);
   const Ending ending = shell.run({"check", "file.toml"});
@@ -133,8 +134,6 @@ TEST_CASE("cli report, run --trace: pipes and devices are neither replaced nor w
   CHECK(report.code == 6);
   CHECK(has(report.err, "pipe: is a pipe"));
   CHECK(fs::is_fifo(shell / "pipe"));
-  CHECK(shell.run({"report", "belt-run", "-o", "/dev/null"}).code == 6);
-  CHECK(fs::is_character_file("/dev/null"));
   const Ending trace = shell.run({"run", "belt.toml", "--force", "--no-plots", "--trace", "pipe"});
   CHECK(trace.code == 6);
   CHECK(has(trace.err, "pipe: is a pipe that no program reads"));

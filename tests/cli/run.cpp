@@ -55,6 +55,14 @@ TEST_CASE("cli run: the cutoff that a tolerance found is said, in check that non
                         " modes, up to ") != std::string::npos);
   CHECK(ending.out.find("of the greatest displacement (" + std::to_string(reduction["tried"].size()) +
                         " trials)") != std::string::npos);
+  CHECK(ending.out.find("they would change displacements at contacts by about ") != std::string::npos);
+  CHECK(reduction["left_out_at_contacts"]["displacement"].get<double>() > 0.0);
+  const Ending certified = with({"run", "--engine", "exact", "--certify", "--no-plots", "-o", "certified"});
+  CHECK(certified.out.find("reduced model certified to the end") != std::string::npos);
+  const Ending page = shell.run({"report", "certified"});
+  CHECK(page.code == 0);
+  CHECK(shell.read("certified/report.html").find("the sequence of events of the reduced model") !=
+        std::string::npos);
   const Ending checked = with({"check"});
   CHECK(checked.code == 0);
   CHECK((checked.out + checked.err).find("reduction.tolerance: this command uses the full model") !=
@@ -261,13 +269,15 @@ TEST_CASE("cli run: an interrupt keeps what was computed, says so, and ends with
   CHECK(shell.read("belt-run/history.csv").back() == '\n');
 }
 
-TEST_CASE("cli run: an energy balance relative to nothing is not a number") {
+TEST_CASE("cli run: an energy balance at rest is relative to the scene's scales") {
   const Shell shell;
   const Ending ending =
       shell.run({"run", SIGNORINI_TEST_DATA "/scenes/robust/pump.toml", "--set", "loads.1.amplitude=0.0",
                  "--set", "run.t_end=0.2", "--no-plots", "-o", "out"});
   CHECK(ending.code == 0);
-  CHECK(ending.out.find("energy balance                         -  ") != std::string::npos);
+  const json energy = json::parse(shell.read("out/summary.json"))["audit"]["energy"];
+  CHECK(energy["relative"].get<double>() <= 1e-9);
+  CHECK(energy["scale"].get<double>() > 0.0);
 }
 
 TEST_CASE("cli run: a killed run leaves whole rows, but for a last one that ends with a page of the file") {

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "result/plots.hpp"
-#include "scene/data_file.hpp"
 #include "scene/matrix_market.hpp"
+#include "scene/time_table.hpp"
 #include "signorini/error.hpp"
 #include "study/check/check.hpp"
 #include "study/sweep/parameter_range.hpp"
@@ -105,6 +105,12 @@ void matrix(std::string_view bytes) {
 void table(std::string_view bytes) {
   std::istringstream in{std::string(bytes)};
   tolerate_errors([&] { (void)scene::read_time_table(in, "fuzz.csv", "loads.1.history"); });
+  scene::TableLayout record;
+  record.time_step = 0.01;
+  record.wanted = scene::RecordQuantity::acceleration;
+  record.unit_given = true;
+  std::istringstream again{std::string(bytes)};
+  tolerate_errors([&] { (void)scene::read_time_table(again, "fuzz.csv", "loads.1.history", record); });
 }
 
 void setting(std::string_view bytes) {

@@ -6,10 +6,10 @@
 // sigma = (sigma_x, sigma_y, tau_xy), tension positive, force/length^2. x_j: points of the elements around node k at which
 // the stresses are most accurate (plane_element.hpp). If these points do not determine the polynomial, or if the polynomial
 // would be extrapolated, as at a boundary, the elements around a neighbouring node are used: the neighbour with the
-// smallest sum |c_j|, which measures how errors at the points grow. If no neighbour is suitable (a strip of one element
-// across), the stress is the area-weighted mean of the (bi)linear functions in the elements at the node.
-// Stresses at boundaries thus have the same order of error as inside. Jumps between elements, a measure of the mesh error,
-// are smoothed.
+// smallest sum |c_j|, which measures how errors at the points grow. For t6, q8 the polynomial then is a cubic, if a neighbour
+// has enough points: a parabola, extrapolated by half an element, has three to four times its error. If no neighbour is
+// suitable (a strip of one element across), the stress is the area-weighted mean of the (bi)linear functions in the elements
+// at the node. Jumps between elements, a measure of the mesh error, are smoothed.
 // Source: Zienkiewicz, Zhu, Int. J. Num. Meth. Eng. 33 (1992), 1331, with one patch per node.
 #pragma once
 

@@ -79,10 +79,11 @@ std::optional<Shift> find_shift(const Pencil& pencil, const std::vector<Combinat
   return std::nullopt;
 }
 
-/// Returns the load factors s + 1/nu > s, ascending. nu: eigenvalues, unsorted.
-std::vector<double> factors_of(double s, const Vector& nu) {
+/// Returns the load factors s + 1/nu > s, ascending. nu: eigenvalues, unsorted; size: a known magnitude of eigenvalues that nu
+/// does not contain.
+std::vector<double> factors_of(double s, const Vector& nu, double size = 0.0) {
   std::vector<double> factors;
-  const double most = nu.size() == 0 ? 0.0 : nu.cwiseAbs().maxCoeff();
+  const double most = nu.size() == 0 ? size : std::max(size, nu.cwiseAbs().maxCoeff());
   for (const double value : nu)
     if (value > no_factor * most) factors.push_back(s + 1.0 / value);
   std::sort(factors.begin(), factors.end());
@@ -105,6 +106,21 @@ std::vector<double> dense_factors(const SparseMatrix& elastic, const SparseMatri
                                                             Eigen::MatrixXd(shift->matrix)));
 }
 
+/// Magnitude of the largest eigenvalues of an operator, by some steps of the power method; at most the largest one.
+double eigenvalue_size(Eigen::Index n, const Operator& apply) {
+  constexpr int steps = 20;
+  Eigen::VectorXd y(n);
+  for (Eigen::Index i = 0; i < n; ++i) y[i] = std::sin(static_cast<double>(i + 1));  // any vector
+  double size = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    y.normalize();
+    y = apply(y);
+    size = std::max(size, y.norm());
+    if (!(size > 0.0)) break;
+  }
+  return size;
+}
+
 std::vector<double> sparse_factors(const SparseMatrix& elastic, const SparseMatrix& geometric,
                                    const std::vector<Combination>& fixed, int count) {
   const auto n = static_cast<int>(elastic.rows());
@@ -120,7 +136,9 @@ std::vector<double> sparse_factors(const SparseMatrix& elastic, const SparseMatr
   const Operator apply = [&](const Eigen::VectorXd& y) -> Eigen::VectorXd {
     return along(factor.solve_factor(Vector(-(pencil.geometric * factor.solve_transposed_factor(along(y))))));
   };
-  return factors_of(shift->s, largest_eigenvalues(n, std::min(count, n - 1), apply));
+  // In tension the largest eigenvalues are zeros with rounding errors, which are relative to the most negative one.
+  return factors_of(shift->s, largest_eigenvalues(n, std::min(count, n - 1), apply),
+                    eigenvalue_size(n, apply));
 }
 
 }  // namespace

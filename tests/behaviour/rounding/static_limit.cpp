@@ -100,6 +100,31 @@ TEST_CASE("a force within some roundings of the static limit ends the certificat
     }
 }
 
+TEST_CASE("rest at the limit of a single coefficient is counted by the audit, and no warning") {
+  for (const std::string& engine : engines)
+    for (const double excess : {0.0, 3e-14, -2e-14}) {
+      CAPTURE(engine);
+      CAPTURE(excess);
+      DryBlock block;
+      block.fk = block.fs;
+      block.history = fmt::format("{{ type = \"polynomial\", coefficients = [{:.17g}] }}",
+                                  block.fs * block.N * (1.0 + excess));
+      const CertifiedBlock c = certified_block(block, engine);
+      CHECK(c.rows.report.outcome.kind == Outcome::Kind::done);
+      CHECK(c.rows.report.warnings.empty());
+      const Audit& audit = c.rows.report.audit;
+      CHECK(audit.contacts_at_limit == 1);
+      CHECK(audit.at_limit.contact == 0);
+      CHECK(audit.at_limit.t == 0.0);
+      CHECK(audit.at_limit.value <= 1e-12 * block.N);
+    }
+  DryBlock below;
+  below.fk = below.fs;
+  below.history =
+      fmt::format("{{ type = \"polynomial\", coefficients = [{:.17g}] }}", 0.5 * below.fs * below.N);
+  CHECK(certified_block(below, "exact").rows.report.audit.contacts_at_limit == 0);
+}
+
 TEST_CASE("a force clearly above the static limit slips, and is certified") {
   for (const std::string& engine : engines) {
     CAPTURE(engine);

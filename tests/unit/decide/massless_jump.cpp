@@ -51,10 +51,11 @@ TEST_CASE("of walls on the way the first is touched, and what comes later is ano
                                              failing(2, Guard::sliding), failing(0, Guard::sliding)};
   const auto touch = decide::first_touch(model, {from, to}, failed);
   REQUIRE(touch);
-  CHECK(touch->contact == 1);
+  REQUIRE(touch->landings.size() == 1);
+  CHECK(touch->landings[0].contact == 1);
   CHECK(touch->fraction == doctest::Approx(0.1 / 0.5).epsilon(1e-15));  // 0.1 (1 - x) - 0.4 x = 0
   // t . (u(x) - u_to), t = (0.6, 0.8)
-  CHECK(touch->ut == doctest::Approx((0.6 * 1.0 + 0.8 * 0.5) * 0.8).epsilon(1e-15));
+  CHECK(touch->landings[0].ut == doctest::Approx((0.6 * 1.0 + 0.8 * 0.5) * 0.8).epsilon(1e-15));
   CHECK(decide::contacts_of(failed) ==
         Contacts{1, 2, 0});  // that wall 0 is touched comes later, that it slides is no touch
 }

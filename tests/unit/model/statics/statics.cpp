@@ -150,7 +150,7 @@ TEST_SUITE("unit/model/statics/statics") {
     CHECK(
         contains(message, "with 36000 degrees of freedom the stiffness is so ill-conditioned that roundoff"));
     CHECK(contains(message, "use fewer elements"));
-    CHECK(contains(message, "hides whether anything restrains the motion of L-R."));
+    CHECK(contains(message, "hides whether anything restrains the motion of "));
   }
 
   TEST_CASE("a free motion that the loads drive is refused with its force") {

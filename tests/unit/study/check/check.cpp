@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -53,6 +54,18 @@ TEST_SUITE("unit/study/check/check") {
     CHECK(*r.cost.exact < 0.5 * r.cost.estimate.seconds);
     CHECK(r.massless == 0);
     CHECK(r.stiffness.size() == 4);
+  }
+
+  TEST_CASE("a cutoff that leaves out most of the compliance of contact nodes is pointed out") {
+    const auto warned = [](const char* cutoff) {
+      const check::CheckReport r =
+          checked(read_scene(SIGNORINI_MODELS "/dry-joint.toml", {{"reduction.cutoff_omega", cutoff}}));
+      return std::any_of(r.warnings.begin(), r.warnings.end(), [](const std::string& warning) {
+        return warning.find("[reduction] leaves out up to") == 0;
+      });
+    };
+    CHECK(warned("2000.0"));  // one mode above the two rigid bodies
+    CHECK_FALSE(warned("60000.0"));
   }
 
   TEST_CASE("stiffness of a contact against the rest: a spring beside it, and another contact") {

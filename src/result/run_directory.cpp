@@ -213,7 +213,7 @@ void RunDirectory::abandon(double t, const std::string& reason) {
   }
 }
 
-std::string RunDirectory::finish(const Report& report) { return finish({report, std::nullopt, ""}); }
+std::string RunDirectory::finish(const Report& report) { return finish({report, std::nullopt, "", {}}); }
 
 std::string RunDirectory::finish(const CertifiedReport& run) {
   if (const Writers& w = writers(); w.body_motion) w.body_motion->write(path_);

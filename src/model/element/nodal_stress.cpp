@@ -54,9 +54,9 @@ class BodyStresses {
     std::vector<Fit> fits;
     fits.push_back(fitted(node, around_[own(node)], degree));
     if (fits.front().amplified <= inside) return terms_of(fits.front().sums);
-    if (degree > 1)
-      if (const auto sums = best_of(at_neighbours(node, degree + 1))) return terms_of(*sums);
     for (Fit& fit : at_neighbours(node, degree)) fits.push_back(std::move(fit));
+    if (degree > 1 && is_extrapolated(fits))
+      if (const auto sums = best_of(at_neighbours(node, degree + 1))) return terms_of(*sums);
     if (const auto sums = best_of(fits)) return terms_of(*sums);
     return mean(node);
   }
@@ -79,6 +79,13 @@ class BodyStresses {
     std::vector<Fit> fits;
     for (const int other : neighbours(node)) fits.push_back(fitted(node, around_[own(other)], degree));
     return fits;
+  }
+  /// True if the polynomial through the node's own elements, which is the first one, and that of the best neighbour are
+  /// extrapolated: then the node lies at a boundary.
+  [[nodiscard]] static bool is_extrapolated(const std::vector<Fit>& fits) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Fit& fit : fits) least = std::min(least, fit.amplified);
+    return least > inside && fits.front().amplified > (1.0 + alike) * least;
   }
   /// Mean of the fits with the smallest amplification; nullopt if none is suitable.
   [[nodiscard]] static std::optional<Sums> best_of(const std::vector<Fit>& fits) {

@@ -111,7 +111,7 @@ TEST_CASE("run directory: a file of that name is refused, forced or not") {
 
 TEST_CASE("summary: holds what a reader needs") {
   const json j = json::parse(
-      result::summary_json(scene(), model(), {report(), {}, ""}, {"signorini", "run", "made-up.toml"}));
+      result::summary_json(scene(), model(), {report(), {}, "", {}}, {"signorini", "run", "made-up.toml"}));
   CHECK(j["outcome"]["kind"] == "done");
   CHECK(j["engine"] == "ida");
   CHECK(j["units"]["energy"] == "kN m");
@@ -133,7 +133,7 @@ TEST_CASE("summary: holds what a reader needs") {
 TEST_CASE("summary: an odd byte in a name does not cost the summary") {
   Scene s = scene();
   s.title = "na\xefve";
-  CHECK(json::parse(result::summary_json(s, model(), {report(), {}, ""}, {})).contains("title"));
+  CHECK(json::parse(result::summary_json(s, model(), {report(), {}, "", {}}, {})).contains("title"));
 }
 
 TEST_CASE("run directory: two runs at once do not share it") {

@@ -326,8 +326,7 @@ CertifiedReport certified_run(const Model& model, const RunSpec& settings, Recor
   if (options.forces)
     for (certify::CompanionRun& companion : plan.runs) companion.model.outputs = model.outputs;
   certify::CompanionTracker own(model, options.forces, &recorder);
-  Companions companions(plan.runs, most_steps,
-                        options.forces);  // copied: the plan is read again after the run
+  Companions companions(std::move(plan.runs), most_steps, options.forces);
   companions.begin();
   result.report = simulate(model, settings, own, options.listener);
   if (run.certify != Certify::yes && costs_more_than_the_run(run, plan, result.report)) {

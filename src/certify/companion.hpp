@@ -54,7 +54,7 @@ struct CompanionRun {
 
 struct CompanionPlan {
   std::vector<CompanionRun> runs;
-  Engine engine = Engine::automatic;  ///< of the companions; known after `runs` have begun elsewhere
+  Engine engine = Engine::automatic;  ///< engine of the companions
   std::string name;                   ///< "exact", "ida, rtol 1e-10"
   std::string choice;                 ///< "as given", or "auto: ..."
   /// Reason why the companion cannot certify the run; empty: the companion can certify it.

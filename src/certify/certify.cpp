@@ -218,7 +218,7 @@ bool costs_little_to_certify(const certify::CompanionPlan& plan) {
 /// of its steps is an upper estimate: `ida` takes few steps while the highest modes are at rest. The time of the run is computed
 /// from its number of steps, not from the clock, so that the same scene is certified on every machine.
 bool costs_more_than_the_run(const RunSpec& run, const certify::CompanionPlan& plan, const Report& report) {
-  if (plan.runs.front().run.engine == run.engine || !(plan.run_steps > 0.0)) return false;
+  if (plan.engine == run.engine || !(plan.run_steps > 0.0)) return false;
   const double taken = plan.run_seconds * static_cast<double>(report.counters.steps) / plan.run_steps;
   return plan.seconds > std::max(free_seconds, taken);
 }
@@ -230,11 +230,11 @@ std::string why_not(const Model& model, const RunSpec& run, const certify::Compa
                     const Report& report) {
   if (!(plan.cost > 0.0))
     return "the cost of a companion run cannot be estimated for this scene; --certify starts one";
-  if (plan.runs.front().run.engine == run.engine)
+  if (plan.engine == run.engine)
     return fmt::format(
         "a companion run would take about {:.2g} times as long as the run; --certify starts one", plan.cost);
   double seconds = plan.seconds;
-  if (run::engine_row(plan.runs.front().run.engine).capabilities.closed_form_flow)
+  if (run::engine_row(plan.engine).capabilities.closed_form_flow)
     seconds += static_cast<double>(report.counters.restarts) * run::seconds_of_event(model);
   return fmt::format(
       "a companion run ({}) would take {} s (order of magnitude), but the run took only {:.2g} s; "
@@ -326,8 +326,7 @@ CertifiedReport certified_run(const Model& model, const RunSpec& settings, Recor
   if (options.forces)
     for (certify::CompanionRun& companion : plan.runs) companion.model.outputs = model.outputs;
   certify::CompanionTracker own(model, options.forces, &recorder);
-  Companions companions(plan.runs, most_steps,
-                        options.forces);  // copied: the plan is read again after the run
+  Companions companions(std::move(plan.runs), most_steps, options.forces);
   companions.begin();
   result.report = simulate(model, settings, own, options.listener);
   if (run.certify != Certify::yes && costs_more_than_the_run(run, plan, result.report)) {

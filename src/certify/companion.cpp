@@ -103,6 +103,7 @@ CompanionPlan finer_plan(const Model& model, const RunSpec& run) {
 
 void estimate(CompanionPlan& plan, const Model& model, const RunSpec& run) {
   const run::CostEstimate own = run::expected_cost(model, run).estimate;
+  plan.engine = plan.runs.front().run.engine;
   plan.run_seconds = own.seconds;
   plan.run_steps = own.steps;
   for (const CompanionRun& companion : plan.runs) {

@@ -54,8 +54,9 @@ struct CompanionRun {
 
 struct CompanionPlan {
   std::vector<CompanionRun> runs;
-  std::string name;    ///< "exact", "ida, rtol 1e-10"
-  std::string choice;  ///< "as given", or "auto: ..."
+  Engine engine = Engine::automatic;  ///< engine of the companions
+  std::string name;                   ///< "exact", "ida, rtol 1e-10"
+  std::string choice;                 ///< "as given", or "auto: ..."
   /// Reason why the companion cannot certify the run; empty: the companion can certify it.
   std::string limitation;
   double factor = 1.0;  ///< factor c of the error bounds

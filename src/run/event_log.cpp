@@ -115,32 +115,32 @@ void EventLog::start(const Instant& now, const engine::Stepper& stepper) {
   latest_.clear();
   bool hits = false;
   for (std::size_t k = 0; k < now.before->size(); ++k) hits = hits || is_hit(*now.decision, k);
-  if (!hits) return;
   for (std::size_t k = 0; k < now.before->size(); ++k)
     if (is_hit(*now.decision, k))
       contact(now, k, EventType::impact, stepper);
-    else
-      continued(now, k);
+    else if (hits || now.decision->crossing(k) != nullptr)
+      continued(now, k, stepper);
 }
 
 /// Logs the change of a contact from the state, with its forces, that the saved run left it in.
-void EventLog::continued(const Instant& now, std::size_t k) {
+void EventLog::continued(const Instant& now, std::size_t k, const engine::Stepper& stepper) {
   const Contact& of = model_.contacts[k];
-  if (model_.saved_contacts.empty() || !of.obeys_coulomb() || of.compliance_split()) return;
+  if (model_.saved_contacts.empty() || of.compliance_split()) return;
   const SavedState::FinalContact& left = model_.saved_contacts[k];
-  const State to = in_events(now.decision->states[k].state);
-  for (const State from : {State::open, State::closed, State::stick, State::slip_plus, State::slip_minus}) {
-    if (left.state != to_string(from)) continue;
-    const std::optional<EventType> type = classify(from, to, false);
-    if (!type) return;
-    ++report_.events_by_type[to_string(*type)];
-    Event event = event_of(now, k, *type, of);
-    event.from = from;
-    event.N = left.N;
-    event.T = left.T;
-    recorder_.event(event);
-    latest_.push_back(std::move(event));
-  }
+  State from = in_events((*now.before)[k].state);
+  if (of.obeys_coulomb())  // the states before the start are guesses, except those of user laws
+    for (const State state : {State::open, State::closed, State::stick, State::slip_plus, State::slip_minus})
+      if (left.state == to_string(state)) from = state;
+  const auto type = classify(from, in_events(now.decision->states[k].state), false);
+  if (!type) return;
+  ++report_.events_by_type[to_string(*type)];
+  Event event = event_of(now, k, *type, of);
+  event.from = from;
+  event.N = left.N;
+  event.T = left.T;
+  add_conditioning(now, stepper, k, event);
+  recorder_.event(event);
+  latest_.push_back(std::move(event));
 }
 
 void EventLog::instant(const Instant& now, const engine::Stepper& stepper) {

@@ -78,8 +78,8 @@ class EventLog {
     /// contact; empty if no triggered guard had been zero.
     std::vector<double> unseen = {};
   };
-  /// Logs the events of the start: hits of rigid contacts. In a run that continues another one, a hit at the start is an
-  /// event of the whole motion, so that changes of other contacts from their saved states are events, too.
+  /// Logs the events of the start: hits of rigid contacts. In a run that continues another one, the start may be an event of
+  /// the whole motion: a hit, or a guard that is zero there. Changes of contacts from their saved states are then events, too.
   void start(const Instant& now, const engine::Stepper& stepper);
   void instant(const Instant& now, const engine::Stepper& stepper);
   void finish();
@@ -88,7 +88,7 @@ class EventLog {
 
  private:
   void load_jump(const Instant& now);
-  void continued(const Instant& now, std::size_t k);
+  void continued(const Instant& now, std::size_t k, const engine::Stepper& stepper);
   void contact(const Instant& now, std::size_t k, EventType type, const engine::Stepper& stepper);
   void add_conditioning(const Instant& now, const engine::Stepper& stepper, std::size_t k, Event& event);
   void check_hit_order(const Instant& now);

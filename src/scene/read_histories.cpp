@@ -139,7 +139,8 @@ void check_unit(const Table& table, const std::optional<RecordUnit>& given,
 }
 
 /// Reads the file's values in the scene's units, or in the unit that the scene gives.
-void read_table_file(Table& table, HistorySpec& spec, HistoryRole role, const Scene& scene) {
+void read_table_file(Table& table, HistorySpec& spec, HistoryRole role,
+                     const std::optional<RecordUnit>& given, const Scene& scene) {
   // Limit of the rows in run.toml; for a larger table run.toml names the file.
   constexpr std::size_t most_inline_rows = 10'000;
   for (const char* other : {"times", "values"}) {
@@ -150,7 +151,6 @@ void read_table_file(Table& table, HistorySpec& spec, HistoryRole role, const Sc
   const std::filesystem::path path = directory_of(scene) / node->as_string()->get();
   std::ifstream in = open_data_file(table, "file", path);
   TableLayout layout = read_layout(table, path, role);
-  const std::optional<RecordUnit> given = read_unit_name(table, role);
   layout.unit_given = given.has_value();
   layout.second = second_in(scene.units);
   TimeTable rows = read_time_table(in, path.string(), table.path("file"), layout);
@@ -169,11 +169,12 @@ void read_table_file(Table& table, HistorySpec& spec, HistoryRole role, const Sc
   table.record("values", toml_numbers(spec.values));
 }
 
-void read_table(Table& table, HistorySpec& spec, HistoryRole role, const Scene& scene) {
+void read_table(Table& table, HistorySpec& spec, HistoryRole role, const std::optional<RecordUnit>& unit,
+                const Scene& scene) {
   spec.steffen = table.choice("interpolation") == "steffen";
   if (table.has("hold")) spec.hold = table.flag("hold");
   if (table.has("file")) {
-    read_table_file(table, spec, role, scene);
+    read_table_file(table, spec, role, unit, scene);
     return;
   }
   table.require("times", " (table: give times and values, or file)");
@@ -226,8 +227,8 @@ void read_period(Table& table, HistorySpec& spec, double t_end) {
 }
 
 /// The unit applies to the whole history, including its offset.
-void read_unit(Table& table, HistorySpec& spec, HistoryRole role, const Units& units) {
-  const std::optional<RecordUnit> unit = read_unit_name(table, role);
+void apply_unit(HistorySpec& spec, HistoryRole role, const std::optional<RecordUnit>& unit,
+                const Units& units) {
   if (!unit) return;
   const double factor = unit->si * metric(role.quantity, units);
   spec.offset *= factor;
@@ -254,9 +255,10 @@ HistorySpec read_history(Table& parent, std::string_view key, HistoryRole role, 
         table.fail(outside, "has no meaning in a load's history; the load has its own amplitude");
     }
   }
+  const std::optional<RecordUnit> unit = read_unit_name(table, role);
   read_span(table, spec);
   if (spec.type == HistoryType::harmonic) read_harmonic(table, spec);
-  if (spec.type == HistoryType::table) read_table(table, spec, role, scene);
+  if (spec.type == HistoryType::table) read_table(table, spec, role, unit, scene);
   if (spec.type == HistoryType::polynomial) {
     table.require("coefficients", " (required for type = \"polynomial\")");
     spec.coefficients = *table.numbers("coefficients");
@@ -266,7 +268,7 @@ HistorySpec read_history(Table& parent, std::string_view key, HistoryRole role, 
     }
   }
   read_period(table, spec, scene.run.t_end);
-  read_unit(table, spec, role, scene.units);
+  apply_unit(spec, role, unit, scene.units);
   table.finish(fmt::format("has no meaning for a history of type \"{}\"", type));
   parent.record(key, table.record().inline_table());
   return spec;

@@ -63,6 +63,18 @@ Result run(const std::string& text, const std::string& engine) {
   return result;
 }
 
+/// The values of the outputs at the times of the rows, after the events there.
+std::vector<Result::Response> on_grid(const Result& result) {
+  std::vector<Result::Response> rows;
+  for (const Result::Row& row : result.rows)
+    for (const Result::Response& response : result.responses)
+      if (response.t == row.t) {
+        if (!rows.empty() && rows.back().t == row.t) rows.pop_back();
+        rows.push_back(response);
+      }
+  return rows;
+}
+
 /// Same events and forces; displacements differ by the motion of the ground.
 void compare(const std::string& moving, const std::string& based, const std::string& engine) {
   CAPTURE(engine);
@@ -75,7 +87,9 @@ void compare(const std::string& moving, const std::string& based, const std::str
     CHECK(a.events[i].contact == b.events[i].contact);
     CHECK(a.events[i].to == b.events[i].to);
   }
-  REQUIRE(a.responses.size() == b.responses.size());
+  const auto rows_a = on_grid(a), rows_b = on_grid(b);
+  REQUIRE(rows_a.size() == rows_b.size());
+  REQUIRE(rows_a.size() > 30);
   double force = 0.0;
   for (const Result::Row& row : b.rows)
     for (const ContactSample& c : row.contacts) force = std::max({force, std::abs(c.N), std::abs(c.T)});
@@ -85,10 +99,11 @@ void compare(const std::string& moving, const std::string& based, const std::str
       CHECK(std::abs(a.rows[i].contacts[k].N - b.rows[i].contacts[k].N) <= 1e2 * close * force);
       CHECK(std::abs(a.rows[i].contacts[k].T - b.rows[i].contacts[k].T) <= 1e2 * close * force);
     }
-  for (std::size_t i = 0; i < a.responses.size(); ++i) {
-    const double t = a.responses[i].t;
-    CHECK(std::abs(a.responses[i].values[0] - b.responses[i].values[0] - dx * s(t)) <= 10.0 * close * A);
-    CHECK(std::abs(a.responses[i].values[1] - b.responses[i].values[1] - dy * s(t)) <= 10.0 * close * A);
+  for (std::size_t i = 0; i < rows_a.size(); ++i) {
+    const double t = rows_a[i].t;
+    CHECK(t == rows_b[i].t);
+    CHECK(std::abs(rows_a[i].values[0] - rows_b[i].values[0] - dx * s(t)) <= 10.0 * close * A);
+    CHECK(std::abs(rows_a[i].values[1] - rows_b[i].values[1] - dy * s(t)) <= 10.0 * close * A);
   }
 }
 

@@ -129,7 +129,7 @@ std::optional<Eigen::VectorXd> least(const Block& b, double t) {
 
 /// The first time at which the block can no longer rest, at most `end`.
 double last_rest(const Block& b, double end) {
-  const int parts = 200;
+  const int parts = 60;
   double rests = 0.0, moves = end;
   bool ends = false;
   for (int i = 1; i <= parts && !ends; ++i) {
@@ -137,7 +137,7 @@ double last_rest(const Block& b, double end) {
     ends = !least(b, t);
     (ends ? moves : rests) = t;
   }
-  for (int i = 0; ends && i < 50; ++i) {
+  for (int i = 0; ends && i < 36; ++i) {
     const double middle = 0.5 * (rests + moves);
     (least(b, middle) ? rests : moves) = middle;
   }
@@ -159,7 +159,7 @@ std::string contact_text(const Support& s, std::size_t i, const View& view) {
 
 std::string scene_text(const Block& b, const View& view) {
   std::string text = parts::head + "gravity = " + pair(seen(Vector2d(0.0, -g), view)) +
-                     "\n[run]\nt_end = 1.0\noutput_dt = 0.01\n[nodes]\nT = " + pair(seen(b.top, view)) + "\n";
+                     "\n[run]\nt_end = 1.0\noutput_dt = 0.05\n[nodes]\nT = " + pair(seen(b.top, view)) + "\n";
   std::string names = "\"T\"", contacts;
   for (std::size_t i = 0; i < b.supports.size(); ++i) {
     text += fmt::format("F{} = {}\n", i, pair(seen(b.supports[i].place, view)));
@@ -306,7 +306,7 @@ TEST_CASE("dry friction at a stop is released, turns and slips back as the load 
       const double P = 10.0 - 5.0 * row.t;
       if (row.t > 2.6) break;
       const double T = P > 6.0 ? 3.0 : P > 0.0 ? 0.5 * P : P;
-      CHECK(std::abs(row.contacts[0].T + T) <= 1e-9 * 10.0);
+      CHECK(std::abs(row.contacts[0].T - T) <= 1e-9 * 10.0);
       CHECK(std::abs(row.contacts[1].N + P - T) <= 1e-9 * 10.0);
     }
     double slips = 0.0;
@@ -322,7 +322,7 @@ TEST_CASE("forces of random blocks at rest on feet and sliders have the least no
   for (int i = 0, tried = 0; i < 18; ++tried) {
     CAPTURE(tried);
     const Block b =
-        random_block(random, 1 + static_cast<std::size_t>(i % 3), 1 + static_cast<std::size_t>(i % 2));
+        random_block(random, 1 + static_cast<std::size_t>(i % 2), 1 + static_cast<std::size_t>(i % 3 == 2));
     if (!least(b, 0.0)) continue;
     const double end = last_rest(b, 1.0) - 1e-6;
     if (end < 0.02) continue;

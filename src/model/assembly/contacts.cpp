@@ -136,7 +136,7 @@ std::vector<Contact> make_contacts(const Scene& scene, const DofMap& map) {
     c.tangent = tangent_form(spec, map);
     remove_friction_at_fixed_tangent(scene, contacts.size(), c);
     check_friction_by_force(spec);
-    if (!c.normal_force_given()) {
+    if (!spec.capabilities().normal_force_given) {  // a user law must agree, see check_user_law()
       if (spec.normal) c.normal = combination(map, *spec.normal, spec.key("normal"), true);
       check_gap(spec, c);
       if (c.normal_spring()) check_compliant(spec, c);

@@ -80,8 +80,8 @@ TEST_SUITE("behaviour/relations") {
 
 namespace {
 
-/// One relation of a scene that was drawn is explained; `open`: because the data leave it undetermined.
-void check_pair(const std::string& text, std::uint64_t seed, const char* relation, bool open) {
+/// One relation of a scene that was drawn is explained, and not because the data leave it undetermined.
+void check_pair(const std::string& text, std::uint64_t seed, const char* relation) {
   RelationSettings settings;
   settings.seed = 1;
   settings.bounds.seconds = 1e6;
@@ -93,7 +93,7 @@ void check_pair(const std::string& text, std::uint64_t seed, const char* relatio
     CAPTURE(related.name);
     CAPTURE(found.what);
     CHECK(is_explained(found.verdict));
-    CHECK((found.verdict == Likeness::Class::undetermined) == open);
+    CHECK(found.verdict != Likeness::Class::undetermined);
   });
   CHECK(compared == 1);
 }
@@ -104,34 +104,34 @@ TEST_SUITE("slow/behaviour/relations") {
   TEST_CASE("random scenes and one relation that parted from them") {
     // 977: rounding of velocities told which way a contact at its limit slips. 1234, 1395: parts of a run had other captures.
     for (const std::uint64_t seed : {977U, 1234U, 1395U})
-      check_pair(draw_whole_scene(seed), seed, "going on", false);
+      check_pair(draw_whole_scene(seed), seed, "going on");
     // 323, 541: static starts beside stiff contacts. 783: chatter to flights of rounding.
-    check_pair(draw_whole_scene(323U), 323U, "turned", false);
-    check_pair(draw_whole_scene(541U), 541U, "permuted", false);
+    check_pair(draw_whole_scene(323U), 323U, "turned");
+    check_pair(draw_whole_scene(541U), 541U, "permuted");
     // 2370: companions began where their run begins, though its static start is known to 1e-9 only.
-    check_pair(draw_whole_scene(2370U), 2370U, "in units", false);
+    check_pair(draw_whole_scene(2370U), 2370U, "in units");
     // 2656: companions of a reduced model had its shapes, which are off by ten thousand roundings.
-    check_pair(draw_whole_scene(2656U), 2656U, "turned", false);
-    check_pair(draw_whole_scene(783U), 783U, "turned", false);
+    check_pair(draw_whole_scene(2656U), 2656U, "turned");
+    check_pair(draw_whole_scene(783U), 783U, "turned");
     // 3743: what stuck beside a body that moved began to slip with rounding. 4125: what stands until a surface accelerates.
-    check_pair(draw_whole_scene(3743U), 3743U, "going on", false);
-    check_pair(draw_whole_scene(4125U), 4125U, "shifted", false);
+    check_pair(draw_whole_scene(3743U), 3743U, "going on");
+    check_pair(draw_whole_scene(4125U), 4125U, "shifted");
     // 4323: what rested at its limit slips where a load begins, and its slip rate until then is rounding, too.
-    check_pair(draw_whole_scene(4323U), 4323U, "permuted", false);
+    check_pair(draw_whole_scene(4323U), 4323U, "permuted");
     // 3645: when an elastic contact closes that just touches was told by rounding of a static start.
-    check_pair(draw_whole_scene(3645U), 3645U, "turned", false);
+    check_pair(draw_whole_scene(3645U), 3645U, "turned");
     // 4284: a motion that nothing resists, on which one start was refused and the other said so; now both are refused.
-    check_pair(draw_whole_scene(4284U), 4284U, "turned", false);
+    check_pair(draw_whole_scene(4284U), 4284U, "turned");
     // 2571: absolute tolerances decided the steps of `ida`, so that samples of its error were all alike. 779: works of loads
     // inside a long step.
-    check_pair(draw_whole_scene(2571U), 2571U, "contact split", false);
-    check_pair(draw_whole_scene(779U), 779U, "turned", false);
+    check_pair(draw_whole_scene(2571U), 2571U, "contact split");
+    check_pair(draw_whole_scene(779U), 779U, "turned");
     // A friction limit that rises from zero by less than rounding, and falls: `newmark` decided it again for ever.
-    check_pair(draw_whole_scene(3199U), 3199U, "reversed", false);
-    // A rigid contact and a slider share a motion; nothing holds the start. Both stop alike where one did.
-    check_pair(draw_whole_scene(537U), 537U, "permuted", false);
-    check_pair(draw_whole_scene(851U), 851U, "shifted", true);
-    check_pair(draw_whole_scene(1243U), 1243U, "turned", false);
+    check_pair(draw_whole_scene(3199U), 3199U, "reversed");
+    // A rigid contact and a slider share a motion: the run stopped there.
+    check_pair(draw_whole_scene(537U), 537U, "permuted");
+    check_pair(draw_whole_scene(851U), 851U, "shifted");
+    check_pair(draw_whole_scene(1243U), 1243U, "turned");
   }
 
   TEST_CASE("a scene of pendulums and P-delta beside related ones") {
@@ -143,7 +143,7 @@ TEST_SUITE("slow/behaviour/relations") {
                                          {16U, "going on"},
                                          {19U, "turned"},
                                          {73U, "going on"}})
-      check_pair(draw_structure_scene(seed), seed, relation, false);
+      check_pair(draw_structure_scene(seed), seed, relation);
   }
 
   TEST_CASE("random structures beside related ones: bodies, bends, hangers, pendulums, P-delta") {

@@ -166,16 +166,17 @@ TEST_CASE("a frictional start has the same forces at every angle") {
 
 TEST_CASE("an error of the start shows in the companions, which start from equilibria of their own") {
   for (const char* name : {"starts/block-beside-frame", "starts/sliders-beside-block"}) {
-    CAPTURE(name);
+    CAPTURE(std::string(name));
     const Scene scene = scene_of(name);
     Model model = build_model(scene);
     const Vector right = model.u0;
-    const double error = 1e-9 * right.cwiseAbs().maxCoeff();
+    // Less than what counts as a load that acts from t = 0 on, more than the perturbation of K makes.
+    const double error = 1e-10 * right.cwiseAbs().maxCoeff();
     for (int i = 0; i < model.size(); ++i) model.u0[i] += (i % 3 == 0 ? 1.0 : -0.7) * error;
     const Model near = certify::perturbed(model, 1);
     // The springs are stretched as by the equilibrium, not as by the start, up to the perturbation of K.
     const Vector forces = model.stiffness * (near.u0 - right), wrong = model.stiffness * (model.u0 - right);
-    CHECK(forces.cwiseAbs().maxCoeff() < 1e-2 * wrong.cwiseAbs().maxCoeff());
+    CHECK(forces.cwiseAbs().maxCoeff() < 0.1 * wrong.cwiseAbs().maxCoeff());
   }
 }
 

@@ -55,7 +55,7 @@ run = { t_end = 1.0, rtol = 1e-10, initial = {} }
 nodes = { block = [0.0, 0.0] }
 masses = [{ node = "block", mass = 2.0 }]
 contacts = [{ name = "magnet", node = "block", law = "compliant", normal = [0.0, 1.0], normal_stiffness = 400.0 }]
-loads = [{ node = "block", direction = [0.0, 1.0], history = { type = "polynomial", coefficients = [0.0, 5.0] } }]
+loads = [{ node = "block", direction = [0.0, 1.0], amplitude = 1.0, history = { type = "polynomial", coefficients = [0.0, 5.0], start = 0.0 } }]
 )",
                             "in code");
   scene.contacts[0].user_law = std::make_shared<Magnet>(k, A);

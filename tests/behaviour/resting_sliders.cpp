@@ -319,10 +319,9 @@ TEST_CASE("dry friction at a stop is released, turns and slips back as the load 
 TEST_CASE("forces of random blocks at rest on feet and sliders have the least norm, turned, in any order") {
   std::mt19937_64 random(17);
   std::uniform_real_distribution<double> part(0.0, 1.0);
-  for (int i = 0, tried = 0; i < 18; ++tried) {
+  for (int i = 0, tried = 0; i < 8; ++tried) {
     CAPTURE(tried);
-    const Block b =
-        random_block(random, 1 + static_cast<std::size_t>(i % 2), 1 + static_cast<std::size_t>(i % 3 == 2));
+    const Block b = random_block(random, i % 4 == 3 ? 3 : 2, i % 4 == 1 ? 2 : 1);
     if (!least(b, 0.0)) continue;
     const double end = last_rest(b, 1.0) - 1e-6;
     if (end < 0.02) continue;

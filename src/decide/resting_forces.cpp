@@ -13,14 +13,14 @@ namespace {
 
 using SetKind = base::ConvexSet::Kind;
 
+/// Forces of zero lie inside the limits of sliders: derivatives of their forces have no limit.
+void leave_discs(double zero, std::vector<base::ConvexSet>& sets) {
+  for (base::ConvexSet& set : sets)
+    if (set.kind == SetKind::disc) set = base::critical_cone(set, Eigen::VectorXd::Zero(set.size), zero);
+}
+
 /// A guard that an engine located is zero, whatever digits its force has lost: no engine loses half of them.
 constexpr double located_digits = 0x1p-26;
-
-/// True if one of the contacts is rigid. Sliders alone share their forces by the decision of accelerations.
-bool has_foot(const Model& model, const std::vector<std::size_t>& contacts) {
-  return std::any_of(contacts.begin(), contacts.end(),
-                     [&](std::size_t c) { return model.contacts[c].takes_impulses(); });
-}
 
 /// Limit F = fs q of a slider's friction force, or its time derivative of this order.
 double limit_of(const Contact& contact, std::size_t c, const motion::Forcing& forcing, double t,
@@ -206,7 +206,10 @@ bool RestingFeet::decide(const Instant& instant, const motion::Forcing& forcing,
     const Eigen::VectorXd x = forces(jets, order);
     const double moved = order > 0 ? set_offsets(forcing, instant.t, order, sides, sets) : 0.0;
     const double noise = noises[static_cast<Eigen::Index>(order)];
-    if (x.norm() <= noise && moved == 0.0) continue;  // no change by this derivative
+    if (x.norm() <= noise && moved == 0.0) {  // no change by this derivative
+      if (order == 0) leave_discs(noise, sets);
+      continue;
+    }
     double blur = 0.0;
     const auto least =
         order == 0 ? at_instant(sets, jets, noises, blur) : base::least_norm_point(a_, a_ * x, sets);
@@ -308,7 +311,7 @@ std::optional<RestingFeet> find_resting_feet(motion::StateSystems& systems, cons
                                              double t, const std::vector<std::size_t>& feet,
                                              contact::ContactStates states) {
   const Model& model = systems.model();
-  if (feet.size() < 2 || !has_foot(model, feet)) return std::nullopt;
+  if (feet.size() < 2) return std::nullopt;
   for (const std::size_t c : feet)
     if (model.contacts[c].normal_force_given() && model.contacts[c].friction.is_load_dependent())
       return std::nullopt;  // the rate of its limit is not linear in that of its compression
@@ -334,7 +337,7 @@ std::vector<RestingFeet::Release> releases(motion::StateSystems& systems, const 
       feet.push_back(c);
       at_faces = at_faces || states[c].is_open() || slip_sign(states[c].state) != 0;
     }
-    if (!at_faces || !has_foot(model, feet)) continue;
+    if (!at_faces) continue;
     const auto resting = find_resting_feet(systems, forcing, t, feet, states);
     if (!resting) continue;
     for (RestingFeet::Release& release : resting->releases(states)) result.push_back(std::move(release));

@@ -129,7 +129,7 @@ std::optional<Eigen::VectorXd> least(const Block& b, double t) {
 
 /// The first time at which the block can no longer rest, at most `end`.
 double last_rest(const Block& b, double end) {
-  const int parts = 60;
+  const int parts = 16;
   double rests = 0.0, moves = end;
   bool ends = false;
   for (int i = 1; i <= parts && !ends; ++i) {
@@ -137,7 +137,7 @@ double last_rest(const Block& b, double end) {
     ends = !least(b, t);
     (ends ? moves : rests) = t;
   }
-  for (int i = 0; ends && i < 36; ++i) {
+  for (int i = 0; ends && i < 26; ++i) {
     const double middle = 0.5 * (rests + moves);
     (least(b, middle) ? rests : moves) = middle;
   }
@@ -159,7 +159,7 @@ std::string contact_text(const Support& s, std::size_t i, const View& view) {
 
 std::string scene_text(const Block& b, const View& view) {
   std::string text = parts::head + "gravity = " + pair(seen(Vector2d(0.0, -g), view)) +
-                     "\n[run]\nt_end = 1.0\noutput_dt = 0.05\n[nodes]\nT = " + pair(seen(b.top, view)) + "\n";
+                     "\n[run]\nt_end = 1.0\noutput_dt = 0.1\n[nodes]\nT = " + pair(seen(b.top, view)) + "\n";
   std::string names = "\"T\"", contacts;
   for (std::size_t i = 0; i < b.supports.size(); ++i) {
     text += fmt::format("F{} = {}\n", i, pair(seen(b.supports[i].place, view)));
@@ -316,12 +316,55 @@ TEST_CASE("dry friction at a stop is released, turns and slips back as the load 
   }
 }
 
+TEST_CASE("sliders and a wall share a load that begins at zero, returns through zero and turns") {
+  // q = 3 and 1 bear at most 3 and 1 N. Pressed to the wall by F: N = T1 = T2 = F/3 up to F = 3, then T2 = 1 and N = T1 up
+  // to F = 7, then T1 = 3. Pulled off: T1 = T2 = F/2 up to -2, then T2 = -1.
+  const std::string wall = "[[contacts]]\nname = \"wall\"\nnode = \"m\"\nlaw = \"rigid\"\nnormal = $-x\n";
+  const auto slider = [](const std::string& name, const std::string& q) {
+    return "[[contacts]]\nname = \"" + name +
+           "\"\nnode = \"m\"\nlaw = \"slider\"\ntangent = $x\nnormal_force = " + q + "\nfriction = 1.0\n";
+  };
+  const std::string history =
+      "{ type = \"table\", times = [0.0, 1.0, 3.0, 4.0], values = [0.0, 10.0, -3.5, -3.5] }";
+  for (const bool walled : {true, false})
+    for (const std::string engine : {"exact", "ida", "newmark"}) {
+      CAPTURE(engine);
+      CAPTURE(walled);
+      const double share = walled ? 1.0 : 0.35;  // without the wall the sliders bear at most 4 N
+      const Scene scene =
+          line_scene(slider("s1", "3.0") + slider("s2", "1.0") + (walled ? wall : ""),
+                     walled ? history
+                            : "{ type = \"table\", times = [0.0, 1.0, 3.0, 4.0], values = [0.0, "
+                              "3.5, -1.225, -1.225] }",
+                     engine, 0.4, 4.0);
+      const Result result = simulate(build_model(scene), scene.run);
+      CHECK(result.report.outcome.reason == "");
+      for (const Result::Row& row : result.rows) {
+        CAPTURE(row.t);
+        const double t = row.t;
+        const double F = share * (t < 1.0 ? 10.0 * t : t < 3.0 ? 10.0 - 6.75 * (t - 1.0) : -3.5);
+        double N = 0.0, T1 = 0.0, T2 = 0.0;
+        if (walled && F > 0.0) {
+          T2 = std::min(1.0, F / 3.0);
+          T1 = std::min(3.0, 0.5 * (F - T2));
+          N = F - T1 - T2;
+        } else {
+          T2 = std::clamp(0.5 * F, -1.0, 1.0);
+          T1 = F - T2;
+        }
+        CHECK(std::abs(row.contacts[0].T - T1) <= 1e-8);
+        CHECK(std::abs(row.contacts[1].T - T2) <= 1e-8);
+        if (walled) CHECK(std::abs(row.contacts[2].N + N) <= 1e-8);
+      }
+    }
+}
+
 TEST_CASE("forces of random blocks at rest on feet and sliders have the least norm, turned, in any order") {
   std::mt19937_64 random(17);
   std::uniform_real_distribution<double> part(0.0, 1.0);
-  for (int i = 0, tried = 0; i < 8; ++tried) {
+  for (int i = 0, tried = 0; i < 6; ++tried) {
     CAPTURE(tried);
-    const Block b = random_block(random, i % 4 == 3 ? 3 : 2, i % 4 == 1 ? 2 : 1);
+    const Block b = random_block(random, 2, 1);
     if (!least(b, 0.0)) continue;
     const double end = last_rest(b, 1.0) - 1e-6;
     if (end < 0.02) continue;

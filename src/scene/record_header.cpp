@@ -63,19 +63,60 @@ std::string spelling_of(std::string_view text) {
   return unit;
 }
 
-/// The number with which the text begins, after blanks and "=".
-std::optional<double> leading_number(std::string_view text) {
+/// A number at the beginning of a text, after blanks and "=", with Fortran's exponents E and D, and the text after it.
+struct LeadingNumber {
+  double value;
+  std::string_view rest;
+};
+
+/// nullopt: there is no number, or it goes on with what a number does not have: "0.02.5", "1/50", "6,000".
+std::optional<LeadingNumber> leading_number(std::string_view text) {
   const std::size_t from = std::min(text.find_first_not_of(" \t="), text.size());
-  const std::size_t to = std::min(text.find_first_not_of("+-.0123456789Ee", from), text.size());
-  for (std::size_t end = to; end > from; --end)
-    if (const auto value = base::parse_number(text.substr(from, end - from))) return value;
+  const std::size_t to = std::min(text.find_first_not_of("+-.0123456789EeDd", from), text.size());
+  for (std::size_t end = to; end > from; --end) {
+    std::string word(text.substr(from, end - from));
+    for (char& c : word)
+      if (c == 'D' || c == 'd') c = 'E';
+    const auto value = base::parse_number(word);
+    if (!value) continue;
+    const std::string_view rest = text.substr(end);
+    const bool digits_follow =
+        rest.size() > 1 && rest[0] == ',' && std::isdigit(static_cast<unsigned char>(rest[1]));
+    if (digits_follow || (!rest.empty() && std::string_view("+-.0123456789/").find(rest[0]) != rest.npos))
+      return std::nullopt;
+    return LeadingNumber{*value, rest};
+  }
   return std::nullopt;
 }
 
-/// The number that follows `mark`; the text is in upper case.
-std::optional<double> number_after(std::string_view text, std::string_view mark) {
+/// The number that follows `mark`, unless another number follows it; the text is in upper case.
+std::optional<LeadingNumber> number_after(std::string_view text, std::string_view mark) {
   const std::size_t at = text.find(mark);
-  return at == std::string_view::npos ? std::nullopt : leading_number(text.substr(at + mark.size()));
+  if (at == std::string_view::npos) return std::nullopt;
+  std::optional<LeadingNumber> found = leading_number(text.substr(at + mark.size()));
+  if (!found) return std::nullopt;
+  const std::size_t next = found->rest.find_first_not_of(" \t");
+  if (next != std::string_view::npos && std::isdigit(static_cast<unsigned char>(found->rest[next])))
+    return std::nullopt;
+  return found;
+}
+
+std::optional<double> value_of(const std::optional<LeadingNumber>& number) {
+  return number ? std::optional(number->value) : std::nullopt;
+}
+
+/// The number of seconds that follows `mark`; nullopt if the word behind the number is no unit of seconds.
+std::optional<double> seconds_after(std::string_view text, std::string_view mark) {
+  const std::optional<LeadingNumber> found = number_after(text, mark);
+  if (!found) return std::nullopt;
+  std::string_view word =
+      found->rest.substr(std::min(found->rest.find_first_not_of(" \t,"), found->rest.size()));
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  word = word.substr(
+      0, static_cast<std::size_t>(std::find_if_not(word.begin(), word.end(), is_letter) - word.begin()));
+  for (const std::string_view unit : {"", "S", "SEC", "SECS", "SECOND", "SECONDS", "NPTS"})
+    if (word == unit) return found->value;
+  return std::nullopt;
 }
 
 RecordQuantity quantity_in(std::string_view upper_text) {
@@ -145,11 +186,10 @@ std::optional<RecordUnit> record_unit(std::string_view text) {
 std::optional<RecordHeader> peer_points(std::string_view line) {
   const std::string text = upper(line);
   if (text.find("NPTS") == std::string::npos || text.find("DT") == std::string::npos) return std::nullopt;
-  auto points = number_after(text, "NPTS"), step = number_after(text, "DT");
-  if (!points) {  // "5372 0.0050 NPTS, DT"
-    points = leading_number(text);
-    const std::size_t first = std::min(text.find_first_not_of(" \t"), text.size());
-    step = leading_number(text.substr(std::min(text.find_first_of(" \t", first), text.size())));
+  std::optional<double> points = value_of(number_after(text, "NPTS")), step = seconds_after(text, "DT");
+  if (const auto first = leading_number(text); first && !points) {  // "5372 0.0050 NPTS, DT"
+    points = first->value;
+    step = value_of(leading_number(first->rest));
   }
   if (!is_count(points) || !step || !(*step > 0.0) || !std::isfinite(*step)) return std::nullopt;
   RecordHeader header;
@@ -174,12 +214,12 @@ std::optional<RecordHeader> block_header(std::string_view line) {
   const bool csmip = text.find("POINTS OF") != std::string::npos &&
                      text.find("EQUALLY SPACED AT") != std::string::npos,
              cosmos = text.find(" PTS, APPROX") != std::string::npos;
-  const auto points = leading_number(text);
+  const auto points = value_of(leading_number(text));
   RecordHeader header;
   header.quantity = quantity_in(text);
   if (!(csmip || cosmos) || !is_count(points) || header.quantity == Quantity::none) return std::nullopt;
   header.points = static_cast<std::size_t>(*points);
-  if (csmip) header.time_step = std::max(number_after(text, "EQUALLY SPACED AT").value_or(0.0), 0.0);
+  if (csmip) header.time_step = std::max(seconds_after(text, "EQUALLY SPACED AT").value_or(0.0), 0.0);
   add_unit(text, {"UNITS=", "UNITS:", ", IN ", " IN "}, header);
   header.width = format_width(text);
   return header;

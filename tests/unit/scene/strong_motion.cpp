@@ -91,6 +91,29 @@ TEST_CASE("words behind the unit of a PEER record, as in 230 of 238 files of a p
   CHECK(read(peer("ACCELERATION IN UNITS OF CM / SEC**2. FILTER"), acceleration).unit.value().si == 0.01);
 }
 
+TEST_CASE("the step of a record is read whole, or the heading is refused") {
+  const auto record = [](const std::string& points_line) {
+    return "PEER NGA\nKobe\nACCELERATION TIME SERIES IN UNITS OF G\n" + points_line +
+           "\n.1 .2 -.3 .4 .5 .6\n";
+  };
+  const TableLayout layout = wanting(RecordQuantity::acceleration);
+  for (const char* step : {"2.0D-02 SEC", "2.0E-02", ".02SEC", "0.02 s", ".02, SECONDS"}) {
+    CAPTURE(std::string(step));
+    const TimeTable table = read(record(std::string("NPTS=  6, DT=  ") + step), layout);
+    CHECK(table.times.back() == doctest::Approx(0.1).epsilon(1e-14));
+  }
+  for (const char* line :
+       {"NPTS= 6, DT= 20 MSEC", "NPTS= 6, DT= 20 ms", "NPTS= 6, DT= 20 MIN", "NPTS= 6, DT= 1/50",
+        "NPTS= 6, DT= 0.02/0.01", "NPTS= 6, DT= 0.02.5", "NPTS= 6,000, DT= 0.02", "NPTS= 6 7, DT= 0.02"}) {
+    CAPTURE(std::string(line));
+    CHECK(refusal(record(line), layout) != "none");
+  }
+  const TimeTable older = read(
+      "PEER\nKobe\nACCELERATION TIME HISTORY IN UNITS OF G\n  6   0.0200   NPTS, DT\n.1 .2 -.3 .4 .5 .6\n",
+      layout);
+  CHECK(older.times.back() == doctest::Approx(0.1).epsilon(1e-14));
+}
+
 TEST_CASE("a record is of the quantity that its heading names, whatever unit it names") {
   const TableLayout acceleration = wanting(RecordQuantity::acceleration),
                     velocity = wanting(RecordQuantity::velocity),

@@ -248,7 +248,7 @@ TEST_CASE("cli manifest: a killed run has none, an interrupted one says that it 
   const auto ended_by = [&](int signal) {
     const pid_t child =
         shell.start({"run", "belt.toml", "--no-plots", "--force", "--set", "run.frames=[1.0,2.5]"});
-    for (int i = 0; i < 1000 && !runs(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    for (int i = 0; i < 6000 && !runs(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     REQUIRE(runs());
     CHECK_FALSE(exists(shell, "belt-run/manifest.json"));
     kill(child, signal);

@@ -96,6 +96,7 @@ int rank(const Eigen::MatrixXd& a) {
 }
 
 Eigen::MatrixXd solve_dense(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  if (a.size() == 0) return b;  // no unknowns; a decomposition needs at least one
   return a.fullPivLu().solve(b);
 }
 
